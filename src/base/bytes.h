@@ -25,7 +25,8 @@ public:
     void put_f32(float v) { put_raw(&v, sizeof v); }
     // LEB128: 7 bits a byte, low bits first.
     void put_varint(u64 v) {
-        while (v >= 0x80) put_u8(u8(v) | 0x80), v >>= 7;
+        while (v >= 0x80)
+            put_u8(u8(v) | 0x80), v >>= 7;
         put_u8(u8(v));
     }
     // Zigzag, so that small negative numbers stay short.
@@ -52,7 +53,8 @@ private:
 
 class ByteReader {
 public:
-    explicit ByteReader(ByteView bytes) : bytes_(bytes) {}
+    explicit ByteReader(ByteView bytes)
+        : bytes_(bytes) {}
     u8 get_u8() { return get_raw<u8>(); }
     u16 get_u16() { return get_raw<u16>(); }
     u32 get_u32() { return get_raw<u32>(); }

@@ -22,7 +22,11 @@ static u64 status_kib(const char* key) {
     return value;
 }
 
-u64 peak_memory_bytes() { return status_kib("VmHWM") * 1024; }
-u64 resident_memory_bytes() { return status_kib("VmRSS") * 1024; }
+u64 peak_memory_bytes() {
+    return status_kib("VmHWM") * 1024;
+}
+u64 resident_memory_bytes() {
+    return status_kib("VmRSS") * 1024;
+}
 
 } // namespace vitrail

@@ -6,7 +6,9 @@ namespace vitrail {
 
 // Monotonic time, nanoseconds since an arbitrary start.
 u64 now_ns();
-inline double seconds_since(u64 start_ns) { return double(now_ns() - start_ns) * 1e-9; }
+inline double seconds_since(u64 start_ns) {
+    return double(now_ns() - start_ns) * 1e-9;
+}
 
 // Peak resident memory of this process in bytes; 0 where the system does not tell.
 u64 peak_memory_bytes();

@@ -1,4 +1,5 @@
-// One description, many uses: a struct lists its numbered fields once and gets a codec, bounds checks and a debug print.
+// One description, many uses: a struct lists its numbered fields once and gets a codec, bounds checks and a debug
+// print.
 //
 //     struct Hello {
 //         u32 version = 0;
@@ -9,10 +10,11 @@
 //     Bytes bytes = encode_fields(hello);
 //     Result<Hello> back = decode_fields<Hello>(bytes);
 //
-// Wire form (docs/formats/fields.md): each field is a varint key (number << 2 | kind) and its value; kind 0 is a zigzag or
-// plain varint, 1 four bytes, 2 a length and that many bytes. Unknown numbers are skipped, missing ones keep their
+// Wire form (docs/formats/fields.md): each field is a varint key (number << 2 | kind) and its value; kind 0 is a zigzag
+// or plain varint, 1 four bytes, 2 a length and that many bytes. Unknown numbers are skipped, missing ones keep their
 // default, so formats can grow. A number is never used again for another meaning.
-// Supported: bool, integers, enums, float, std::string, Bytes, std::vector of those, structs with `fields`, vectors of them.
+// Supported: bool, integers, enums, float, std::string, Bytes, std::vector of those, structs with `fields`, vectors of
+// them.
 #pragma once
 
 #include "base/bytes.h"
@@ -49,7 +51,9 @@ constexpr Field<S, T> field(const char* name, T S::*member, FieldLimits limits =
 namespace detail {
 
 template <class T>
-concept HasFields = requires { T::fields; };
+concept HasFields = requires {
+    T::fields;
+};
 template <class T>
 concept IntegerLike = std::is_integral_v<T> || std::is_enum_v<T>;
 template <class T>
@@ -61,9 +65,12 @@ enum FieldKind : u32 { kVarint = 0, kFixed32 = 1, kBlock = 2 };
 
 template <class T>
 constexpr FieldKind field_kind() {
-    if constexpr (IntegerLike<T>) return kVarint;
-    else if constexpr (std::is_same_v<T, float>) return kFixed32;
-    else return kBlock;
+    if constexpr (IntegerLike<T>)
+        return kVarint;
+    else if constexpr (std::is_same_v<T, float>)
+        return kFixed32;
+    else
+        return kBlock;
 }
 
 template <class T>
@@ -84,17 +91,25 @@ void encode_struct(ByteWriter& out, const T& value) {
 
 template <class T>
 void encode_value(ByteWriter& out, const T& v) {
-    if constexpr (std::is_enum_v<T>) encode_value(out, std::underlying_type_t<T>(v));
-    else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>) out.put_svarint(v);
-    else if constexpr (std::is_integral_v<T>) out.put_varint(v);
-    else if constexpr (std::is_same_v<T, float>) out.put_f32(v);
-    else if constexpr (std::is_same_v<T, std::string>) out.put_string(v);
-    else if constexpr (std::is_same_v<T, Bytes>) out.put_varint(v.size()), out.put_bytes(v);
+    if constexpr (std::is_enum_v<T>)
+        encode_value(out, std::underlying_type_t<T>(v));
+    else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>)
+        out.put_svarint(v);
+    else if constexpr (std::is_integral_v<T>)
+        out.put_varint(v);
+    else if constexpr (std::is_same_v<T, float>)
+        out.put_f32(v);
+    else if constexpr (std::is_same_v<T, std::string>)
+        out.put_string(v);
+    else if constexpr (std::is_same_v<T, Bytes>)
+        out.put_varint(v.size()), out.put_bytes(v);
     else {
         ByteWriter inner;
         if constexpr (IsVector<T>::value)
-            for (const auto& e : v) encode_value(inner, e);
-        else encode_struct(inner, v);
+            for (const auto& e : v)
+                encode_value(inner, e);
+        else
+            encode_struct(inner, v);
         out.put_varint(inner.size());
         out.put_bytes(inner.bytes());
     }
@@ -111,18 +126,27 @@ void decode_struct(ByteReader& in, T& value, int depth) {
                     if (known || (key >> 2) != g.number) return;
                     known = true;
                     using M = std::remove_cvref_t<decltype(value.*g.member)>;
-                    if ((key & 3) != field_kind<M>()) in.set_failed();
-                    else decode_value(in, value.*g.member, g.limits, depth);
+                    if ((key & 3) != field_kind<M>())
+                        in.set_failed();
+                    else
+                        decode_value(in, value.*g.member, g.limits, depth);
                 };
                 (one(f), ...);
             },
             T::fields);
         if (known) continue;
         switch (key & 3) {
-        case kVarint: in.get_varint(); break;
-        case kFixed32: in.get_u32(); break;
-        case kBlock: in.get_bytes(in.get_varint()); break;
-        default: in.set_failed();
+        case kVarint:
+            in.get_varint();
+            break;
+        case kFixed32:
+            in.get_u32();
+            break;
+        case kBlock:
+            in.get_bytes(in.get_varint());
+            break;
+        default:
+            in.set_failed();
         }
     }
 }

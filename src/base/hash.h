@@ -19,6 +19,8 @@ VX_HD constexpr u64 mix64(u64 x) {
     return x;
 }
 
-VX_HD constexpr u64 hash_combine(u64 a, u64 b) { return mix64(a ^ (b * 0x9e3779b97f4a7c15ull + 0x7f4a7c15u)); }
+VX_HD constexpr u64 hash_combine(u64 a, u64 b) {
+    return mix64(a ^ (b * 0x9e3779b97f4a7c15ull + 0x7f4a7c15u));
+}
 
 } // namespace vitrail

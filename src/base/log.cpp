@@ -8,7 +8,9 @@ namespace vitrail {
 
 static std::atomic<LogLevel> g_least{LogLevel::info};
 
-void set_log_level(LogLevel least) { g_least = least; }
+void set_log_level(LogLevel least) {
+    g_least = least;
+}
 
 void log_line(LogLevel level, std::string_view text) {
     if (level < g_least.load(std::memory_order_relaxed)) return;

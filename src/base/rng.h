@@ -26,7 +26,8 @@ VX_HD constexpr float random_unit(RngKey key, i32 x, i32 y, i32 z, u32 counter =
 // Sequential generator for tests, tools and shuffles; never for terrain.
 class Rng {
 public:
-    explicit constexpr Rng(u64 seed) : state_(seed) {}
+    explicit constexpr Rng(u64 seed)
+        : state_(seed) {}
     constexpr u64 next() { return mix64(state_ += 0x9e3779b97f4a7c15ull); }
     // Uniform in [0, bound), bound > 0; bias below 2^-32 for bounds below 2^32.
     constexpr u32 below(u32 bound) { return u32(((next() >> 32) * bound) >> 32); }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <queue>
 #include <thread>
-#include <limits>
 #include <vector>
 
 namespace vitrail {
@@ -48,8 +48,10 @@ struct ThreadPool::State {
     }
 };
 
-ThreadPool::ThreadPool(unsigned threads) : state_(std::make_unique<State>()) {
-    for (unsigned i = 0; i < threads; ++i) state_->workers.emplace_back([s = state_.get()] { s->work(); });
+ThreadPool::ThreadPool(unsigned threads)
+    : state_(std::make_unique<State>()) {
+    for (unsigned i = 0; i < threads; ++i)
+        state_->workers.emplace_back([s = state_.get()] { s->work(); });
 }
 
 ThreadPool::~ThreadPool() {
@@ -58,7 +60,8 @@ ThreadPool::~ThreadPool() {
         state_->stop = true;
     }
     state_->wake.notify_all();
-    for (auto& worker : state_->workers) worker.join();
+    for (auto& worker : state_->workers)
+        worker.join();
 }
 
 void ThreadPool::submit(std::function<void()> task, i64 priority) {
@@ -80,14 +83,16 @@ void ThreadPool::parallel_for(u32 count, const std::function<void(u32)>& body) {
     // The body outlives every helper that touches it: helpers that start late find next >= count and leave.
     auto run = [shared, count, &body] {
         u32 mine = 0;
-        for (u32 i; (i = shared->next.fetch_add(1)) < count; ++mine) body(i);
+        for (u32 i; (i = shared->next.fetch_add(1)) < count; ++mine)
+            body(i);
         if (mine && shared->done.fetch_add(mine) + mine == count) {
             std::lock_guard lock(shared->mutex);
             shared->finished.notify_all();
         }
     };
     const u32 helpers = std::min<u32>(threads(), count > 0 ? count - 1 : 0);
-    for (u32 i = 0; i < helpers; ++i) submit(run, std::numeric_limits<i64>::min());
+    for (u32 i = 0; i < helpers; ++i)
+        submit(run, std::numeric_limits<i64>::min());
     run();
     std::unique_lock lock(shared->mutex);
     shared->finished.wait(lock, [&] { return count == 0 || shared->done.load() == count; });
@@ -98,13 +103,17 @@ void ThreadPool::wait_idle() {
     state_->idle.wait(lock, [&] { return state_->queue.empty() && state_->running == 0; });
 }
 
-unsigned ThreadPool::threads() const { return unsigned(state_->workers.size()); }
+unsigned ThreadPool::threads() const {
+    return unsigned(state_->workers.size());
+}
 
 u64 ThreadPool::waiting() const {
     std::lock_guard lock(state_->mutex);
     return state_->queue.size();
 }
 
-unsigned default_worker_count() { return std::max(1u, std::thread::hardware_concurrency() - 1); }
+unsigned default_worker_count() {
+    return std::max(1u, std::thread::hardware_concurrency() - 1);
+}
 
 } // namespace vitrail

@@ -1,5 +1,6 @@
-// ThreadPool: workers that take tasks by priority; `threads = 0` is the single-threaded twin, which runs each task inside
-// `submit`, so that a test can step through one order. Tasks capture snapshots (shared_ptr<const ...>) and hold no locks.
+// ThreadPool: workers that take tasks by priority; `threads = 0` is the single-threaded twin, which runs each task
+// inside `submit`, so that a test can step through one order. Tasks capture snapshots (shared_ptr<const ...>) and hold
+// no locks.
 #pragma once
 
 #include "base/types.h"

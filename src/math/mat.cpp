@@ -15,7 +15,8 @@ Mat4 operator*(const Mat4& a, const Mat4& b) {
     for (int c = 0; c < 4; ++c)
         for (int row = 0; row < 4; ++row) {
             float sum = 0;
-            for (int k = 0; k < 4; ++k) sum += a.m[k * 4 + row] * b.m[c * 4 + k];
+            for (int k = 0; k < 4; ++k)
+                sum += a.m[k * 4 + row] * b.m[c * 4 + k];
             r.m[c * 4 + row] = sum;
         }
     return r;
@@ -51,7 +52,8 @@ Vec3 look_direction(float yaw, float pitch) {
 
 Mat4 view_rotation(float yaw, float pitch) {
     const Vec3 forward = look_direction(yaw, pitch);
-    const Vec3 right = {-std::cos(yaw), 0.0f, -std::sin(yaw)}; // level, so that straight up and down are no special case
+    const Vec3 right = {-std::cos(yaw), 0.0f,
+                        -std::sin(yaw)}; // level, so that straight up and down are no special case
     const Vec3 up = cross(right, forward);
     Mat4 r = identity();
     r.m[0] = right.x, r.m[4] = right.y, r.m[8] = right.z;
@@ -64,24 +66,29 @@ Mat4 inverse(const Mat4& a) {
     // Gauss-Jordan with partial pivoting in double: used a few times a frame, clarity over speed.
     double w[4][8];
     for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) w[r][c] = a.m[c * 4 + r], w[r][c + 4] = r == c ? 1.0 : 0.0;
+        for (int c = 0; c < 4; ++c)
+            w[r][c] = a.m[c * 4 + r], w[r][c + 4] = r == c ? 1.0 : 0.0;
     for (int c = 0; c < 4; ++c) {
         int pivot = c;
         for (int r = c + 1; r < 4; ++r)
             if (std::abs(w[r][c]) > std::abs(w[pivot][c])) pivot = r;
         if (w[pivot][c] == 0.0) return identity();
-        for (int k = 0; k < 8; ++k) std::swap(w[c][k], w[pivot][k]);
+        for (int k = 0; k < 8; ++k)
+            std::swap(w[c][k], w[pivot][k]);
         const double scale = 1.0 / w[c][c];
-        for (double& v : w[c]) v *= scale;
+        for (double& v : w[c])
+            v *= scale;
         for (int r = 0; r < 4; ++r) {
             if (r == c) continue;
             const double factor = w[r][c];
-            for (int k = 0; k < 8; ++k) w[r][k] -= factor * w[c][k];
+            for (int k = 0; k < 8; ++k)
+                w[r][k] -= factor * w[c][k];
         }
     }
     Mat4 out;
     for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) out.m[c * 4 + r] = float(w[r][c + 4]);
+        for (int c = 0; c < 4; ++c)
+            out.m[c * 4 + r] = float(w[r][c + 4]);
     return out;
 }
 

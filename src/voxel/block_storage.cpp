@@ -23,7 +23,8 @@ void BlockStorage::pack(std::span<const u16, kChunkVolume> indices, unsigned bit
     const u32 per_word = 64 / bits;
     for (u32 w = 0, cell = 0; w < words_.size(); ++w) {
         u64 word = 0;
-        for (u32 i = 0; i < per_word; ++i) word |= u64(indices[cell++]) << (i * bits);
+        for (u32 i = 0; i < per_word; ++i)
+            word |= u64(indices[cell++]) << (i * bits);
         words_[w] = word;
     }
 }
@@ -43,7 +44,8 @@ BlockStorage BlockStorage::from_states(std::span<const StateId, kChunkVolume> st
                 at = std::size_t(std::find(palette.begin(), palette.end(), last) - palette.begin());
             } else {
                 if (slots.empty())
-                    for (std::size_t k = 0; k < palette.size(); ++k) slots.emplace(u32(palette[k]), u16(k));
+                    for (std::size_t k = 0; k < palette.size(); ++k)
+                        slots.emplace(u32(palette[k]), u16(k));
                 at = slots.emplace(u32(last), u16(palette.size())).first->second;
             }
             if (at == palette.size()) palette.push_back(last);
@@ -90,7 +92,8 @@ void BlockStorage::unpack_indices(std::span<u16, kChunkVolume> out) const {
     const u64 mask = (u64(1) << bits_) - 1;
     u32 cell = 0;
     for (u64 word : words_)
-        for (u32 i = 0; i < per_word; ++i, word >>= bits_ & 63) out[cell++] = u16(word & mask);
+        for (u32 i = 0; i < per_word; ++i, word >>= bits_ & 63)
+            out[cell++] = u16(word & mask);
 }
 
 void BlockStorage::unpack(std::span<StateId, kChunkVolume> out) const {
@@ -100,7 +103,8 @@ void BlockStorage::unpack(std::span<StateId, kChunkVolume> out) const {
     }
     std::array<u16, kChunkVolume> indices;
     unpack_indices(indices);
-    for (u32 i = 0; i < kChunkVolume; ++i) out[i] = palette_[indices[i]];
+    for (u32 i = 0; i < kChunkVolume; ++i)
+        out[i] = palette_[indices[i]];
 }
 
 void BlockStorage::compact() {

@@ -15,7 +15,8 @@ enum class StateId : u32 { air = 0, hidden = 1 };
 
 class BlockStorage {
 public:
-    explicit BlockStorage(StateId fill = StateId::air) : palette_{fill} {}
+    explicit BlockStorage(StateId fill = StateId::air)
+        : palette_{fill} {}
     // The smallest storage of these 4096 states, palette in order of first appearance.
     static BlockStorage from_states(std::span<const StateId, kChunkVolume> states);
     // From a palette and 4096 indices into it (each must be below palette.size()); unused and doubled entries go.

@@ -12,7 +12,9 @@ static i64 fixed_from(float blocks) {
 }
 
 // Wrapping difference: right wherever the true one fits into 64 bits.
-static float blocks_between(i64 from, i64 to) { return float(double(i64(u64(to) - u64(from))) * 0x1p-32); }
+static float blocks_between(i64 from, i64 to) {
+    return float(double(i64(u64(to) - u64(from))) * 0x1p-32);
+}
 
 WorldPos offset_by(WorldPos p, Vec3 o) {
     return clamp_to_world({i64(u64(p.x) + u64(fixed_from(o.x))), i64(u64(p.y) + u64(fixed_from(o.y))),
@@ -23,7 +25,9 @@ ViewPos view_from(WorldPos anchor, WorldPos p) {
     return {{blocks_between(anchor.x, p.x), blocks_between(anchor.y, p.y), blocks_between(anchor.z, p.z)}};
 }
 
-ViewPos view_from(WorldPos anchor, BlockPos p) { return view_from(anchor, corner_of(p)); }
+ViewPos view_from(WorldPos anchor, BlockPos p) {
+    return view_from(anchor, corner_of(p));
+}
 
 WorldPos clamp_to_world(WorldPos p) {
     constexpr i64 lo = -i64(kWorldEdge) * kFixedOne, hi = i64(kWorldEdge) * kFixedOne - 1;

@@ -3,8 +3,9 @@
 namespace vitrail {
 
 const std::array<const char*, std::size_t(ShapeKind::count)> kShapeKindNames = {
-    "none",  "cube",   "pillar", "slab",   "stairs", "fence",          "wall", "fence_gate", "pane",  "cross", "crop",
-    "torch", "wall_torch", "door", "trapdoor", "liquid", "layers",     "carpet", "ladder",   "faces", "rail",  "button",
-    "lever", "pressure_plate", "sign", "wall_sign", "chest", "bed",    "lantern", "chain",   "lily_pad", "boxes"};
+    "none",   "cube",      "pillar", "slab",  "stairs",     "fence",  "wall",     "fence_gate",
+    "pane",   "cross",     "crop",   "torch", "wall_torch", "door",   "trapdoor", "liquid",
+    "layers", "carpet",    "ladder", "faces", "rail",       "button", "lever",    "pressure_plate",
+    "sign",   "wall_sign", "chest",  "bed",   "lantern",    "chain",  "lily_pad", "boxes"};
 
 } // namespace vitrail

@@ -25,14 +25,18 @@ BlockRegistry::BlockRegistry() {
 BlockId BlockRegistry::add_block(BlockDef def) {
     const auto [it, added] = block_index_.emplace(def.name, u32(blocks_.size()));
     auto note = [&](const BlockLook& look) {
-        for (const auto& name : look.textures) texture_id(name);
+        for (const auto& name : look.textures)
+            texture_id(name);
         for (const auto& box : look.boxes)
             if (!box.texture.empty()) texture_id(box.texture);
     };
     note(def.look);
-    for (const auto& variant : def.variants) note(variant.look);
-    if (added) blocks_.push_back(std::move(def));
-    else blocks_[it->second] = std::move(def);
+    for (const auto& variant : def.variants)
+        note(variant.look);
+    if (added)
+        blocks_.push_back(std::move(def));
+    else
+        blocks_[it->second] = std::move(def);
     return BlockId(it->second);
 }
 
@@ -52,8 +56,10 @@ void BlockRegistry::add_texture(TextureDef def) {
 
 void BlockRegistry::add_biome(BiomeDef def) {
     const auto [it, added] = biome_index_.emplace(def.name, u32(biomes_.size()));
-    if (added) biomes_.push_back(std::move(def));
-    else biomes_[it->second] = std::move(def);
+    if (added)
+        biomes_.push_back(std::move(def));
+    else
+        biomes_[it->second] = std::move(def);
 }
 
 BlockId BlockRegistry::find_block(std::string_view name) const {

@@ -14,8 +14,10 @@ std::string_view BlockState::get(std::string_view property, std::string_view oth
 void BlockState::set(std::string_view property, std::string_view value) {
     auto at = std::lower_bound(properties.begin(), properties.end(), property,
                                [](const auto& entry, std::string_view key) { return entry.first < key; });
-    if (at != properties.end() && at->first == property) at->second = value;
-    else properties.emplace(at, property, value);
+    if (at != properties.end() && at->first == property)
+        at->second = value;
+    else
+        properties.emplace(at, property, value);
 }
 
 std::string BlockState::to_string() const {
@@ -33,8 +35,8 @@ std::string BlockState::to_string() const {
 static bool is_word(std::string_view text, bool is_name) {
     if (text.empty()) return false;
     return std::all_of(text.begin(), text.end(), [&](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-' ||
-               (is_name && (c == '/' || c == ':'));
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
+               c == '-' || (is_name && (c == '/' || c == ':'));
     });
 }
 

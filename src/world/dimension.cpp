@@ -6,15 +6,20 @@
 namespace vitrail {
 
 Dimension::Dimension(DimensionInfo info, std::shared_ptr<StateTable> states)
-    : info_(std::move(info)), states_(std::move(states)) {}
+    : info_(std::move(info))
+    , states_(std::move(states)) {}
 
 ChunkPtr Dimension::find(ChunkPos at) const {
     const auto it = chunks_.find(at);
     return it == chunks_.end() ? nullptr : it->second;
 }
 
-void Dimension::put(ChunkPos at, ChunkPtr chunk) { chunks_[at] = std::move(chunk); }
-void Dimension::erase(ChunkPos at) { chunks_.erase(at); }
+void Dimension::put(ChunkPos at, ChunkPtr chunk) {
+    chunks_[at] = std::move(chunk);
+}
+void Dimension::erase(ChunkPos at) {
+    chunks_.erase(at);
+}
 
 StateId Dimension::state_at(BlockPos at) const {
     const auto it = chunks_.find(chunk_of(at));
@@ -35,7 +40,9 @@ const ColumnHeights* Dimension::heights(ColumnPos at) const {
     return it == heights_.end() ? nullptr : &it->second;
 }
 
-void Dimension::put_heights(ColumnPos at, const ColumnHeights& heights) { heights_[at] = heights; }
+void Dimension::put_heights(ColumnPos at, const ColumnHeights& heights) {
+    heights_[at] = heights;
+}
 
 ColumnHeights compute_heights(const Dimension& dimension, ColumnPos column) {
     ColumnHeights out;
@@ -47,7 +54,8 @@ ColumnHeights compute_heights(const Dimension& dimension, ColumnPos column) {
         const ChunkPtr chunk = dimension.find({column.x, cy, column.z});
         if (!chunk) continue;
         const auto palette = chunk->blocks.palette();
-        if (std::all_of(palette.begin(), palette.end(), [&](StateId id) { return lights[u32(id)].opacity == 0; })) continue;
+        if (std::all_of(palette.begin(), palette.end(), [&](StateId id) { return lights[u32(id)].opacity == 0; }))
+            continue;
         chunk->blocks.unpack(states);
         for (u32 c = 0; c < 256; ++c) {
             if (out.above[c] != dimension.info().min_y) continue;
@@ -104,8 +112,10 @@ ChangeSet apply(Dimension& dimension, const EditBatch& batch) {
         draft->blocks.set(local, edit.state);
         std::erase_if(draft->block_entities, [&](const BlockEntity& e) { return e.at == local; });
         const auto [it, added] = seen.emplace(edit.at, changes.blocks.size());
-        if (added) changes.blocks.push_back({edit.at, before, edit.state});
-        else changes.blocks[it->second].after = edit.state;
+        if (added)
+            changes.blocks.push_back({edit.at, before, edit.state});
+        else
+            changes.blocks[it->second].after = edit.state;
     }
     std::erase_if(changes.blocks, [](const BlockChange& c) { return c.before == c.after; });
     std::unordered_set<ChunkPos> changed;
@@ -113,7 +123,8 @@ ChangeSet apply(Dimension& dimension, const EditBatch& batch) {
         if (changed.insert(chunk_of(change.at)).second) changes.block_chunks.push_back(chunk_of(change.at));
     for (const ChunkPos& where : changes.block_chunks) {
         auto& draft = drafts[where];
-        if (draft->blocks.palette().size() > 64) draft->blocks.compact(); // many edits must not grow the palette for ever
+        if (draft->blocks.palette().size() > 64)
+            draft->blocks.compact(); // many edits must not grow the palette for ever
         ++draft->revision;
         dimension.put(where, draft);
     }

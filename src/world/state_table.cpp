@@ -31,15 +31,28 @@ std::array<TextureId, 6> resolve_faces(const BlockLook& look, const BlockState& 
     const std::size_t n = look.textures.size();
     if (n == 0) return faces;
     std::array<TextureId, 6> t{};
-    for (std::size_t i = 0; i < n && i < 6; ++i) t[i] = registry.find_texture(look.textures[i]).value_or(TextureId::unknown);
+    for (std::size_t i = 0; i < n && i < 6; ++i)
+        t[i] = registry.find_texture(look.textures[i]).value_or(TextureId::unknown);
     constexpr int west = 0, east = 1, down = 2, up = 3, north = 4, south = 5;
     switch (n) {
-    case 1: faces.fill(t[0]); break;
-    case 2: faces = {t[0], t[0], t[1], t[1], t[0], t[0]}; break;
-    case 3: faces = {t[0], t[0], t[2], t[1], t[0], t[0]}; break;
-    case 4: faces = {t[1], t[1], t[3], t[2], t[0], t[1]}; break; // front looks north until turned
-    case 5: faces = {t[2], t[2], t[4], t[3], t[0], t[1]}; break;
-    default: faces = t; break;
+    case 1:
+        faces.fill(t[0]);
+        break;
+    case 2:
+        faces = {t[0], t[0], t[1], t[1], t[0], t[0]};
+        break;
+    case 3:
+        faces = {t[0], t[0], t[2], t[1], t[0], t[0]};
+        break;
+    case 4:
+        faces = {t[1], t[1], t[3], t[2], t[0], t[1]};
+        break; // front looks north until turned
+    case 5:
+        faces = {t[2], t[2], t[4], t[3], t[0], t[1]};
+        break;
+    default:
+        faces = t;
+        break;
     }
     if (const auto axis = state.get("axis"); !axis.empty() && n == 2) {
         if (axis == "x") faces = {t[1], t[1], t[0], t[0], t[0], t[0]};
@@ -48,8 +61,10 @@ std::array<TextureId, 6> resolve_faces(const BlockLook& look, const BlockState& 
     if (const auto facing = state.get("facing"); !facing.empty() && (n == 4 || n == 5)) {
         const TextureId front = t[0], back = n == 5 ? t[1] : t[1], side = n == 5 ? t[2] : t[1];
         const TextureId top = n == 5 ? t[3] : t[2], bottom = n == 5 ? t[4] : t[3];
-        if (facing == "up") faces = {side, side, back, front, side, side};
-        else if (facing == "down") faces = {side, side, front, back, side, side};
+        if (facing == "up")
+            faces = {side, side, back, front, side, side};
+        else if (facing == "down")
+            faces = {side, side, front, back, side, side};
         else {
             faces = {side, side, bottom, top, side, side};
             const int f = facing == "west" ? west : facing == "east" ? east : facing == "south" ? south : north;
@@ -57,8 +72,10 @@ std::array<TextureId, 6> resolve_faces(const BlockLook& look, const BlockState& 
             faces[std::size_t(f ^ 1)] = back;
         }
     } else if (!facing.empty() && n == 2) { // side and end: the ends lie along the facing
-        if (facing == "west" || facing == "east") faces = {t[1], t[1], t[0], t[0], t[0], t[0]};
-        else if (facing == "north" || facing == "south") faces = {t[0], t[0], t[0], t[0], t[1], t[1]};
+        if (facing == "west" || facing == "east")
+            faces = {t[1], t[1], t[0], t[0], t[0], t[0]};
+        else if (facing == "north" || facing == "south")
+            faces = {t[0], t[0], t[0], t[0], t[1], t[1]};
     }
     (void)down;
     (void)up;
@@ -77,7 +94,8 @@ const BlockLook& unknown_look() {
 
 } // namespace
 
-StateTable::StateTable(std::shared_ptr<const BlockRegistry> registry) : registry_(std::move(registry)) {
+StateTable::StateTable(std::shared_ptr<const BlockRegistry> registry)
+    : registry_(std::move(registry)) {
     infos_ = reserve_zero_pages<std::unique_ptr<StateInfo>>();
     flags_ = reserve_zero_pages<u8>();
     lights_ = reserve_zero_pages<StateLight>();
@@ -86,7 +104,8 @@ StateTable::StateTable(std::shared_ptr<const BlockRegistry> registry) : registry
 }
 
 StateTable::~StateTable() {
-    for (u32 i = 0; i < size(); ++i) infos_[i].reset();
+    for (u32 i = 0; i < size(); ++i)
+        infos_[i].reset();
     munmap(infos_, kCapacity * sizeof(*infos_));
     munmap(flags_, kCapacity * sizeof(*flags_));
     munmap(lights_, kCapacity * sizeof(*lights_));
@@ -141,7 +160,8 @@ void StateTable::resolve(u32 id, const BlockState& state) {
         info->shape = make_shape(look, state);
         info->face_textures = resolve_faces(look, state, *registry_);
         const bool full = info->shape.full_cube;
-        if (full && look.layer == RenderLayer::solid && look.transparency == 0 && look.opacity >= 15) flags |= kOpaqueCube;
+        if (full && look.layer == RenderLayer::solid && look.transparency == 0 && look.opacity >= 15)
+            flags |= kOpaqueCube;
         if (!info->shape.collision.empty()) flags |= kSolid;
         if (look.shape == ShapeKind::none) flags |= kAirLike;
         if (look.shape == ShapeKind::liquid) {
