@@ -11,7 +11,8 @@
 namespace vitrail::bench {
 
 void Context::measure(double items, const std::function<void()>& body) {
-    measure(items, [] {}, body);
+    measure(
+        items, [] {}, body);
 }
 
 void Context::measure(double items, const std::function<void()>& before, const std::function<void()>& body) {
@@ -26,8 +27,12 @@ void Context::measure(double items, const std::function<void()>& before, const s
     }
 }
 
-void Context::report(double value) { values.push_back(value); }
-void Context::skip(std::string reason) { skipped = std::move(reason); }
+void Context::report(double value) {
+    values.push_back(value);
+}
+void Context::skip(std::string reason) {
+    skipped = std::move(reason);
+}
 
 void Suite::add(std::string name, std::string unit, std::string note, Body body) {
     entries_.push_back({std::move(name), std::move(unit), std::move(note), std::move(body)});
@@ -58,13 +63,14 @@ std::vector<Sample> Suite::run(const std::vector<std::string>& wanted,
             continue;
         }
         std::vector<double> values = context.values;
-        for (double s : context.seconds_an_item) values.push_back(scaled(s, entry.unit));
+        for (double s : context.seconds_an_item)
+            values.push_back(scaled(s, entry.unit));
         if (values.empty()) continue;
         std::sort(values.begin(), values.end());
-        Sample sample{entry.name,     entry.unit,    entry.note, values[values.size() / 2], values.front(),
-                      values.back(), int(values.size())};
-        fmt::print("{:24} {:12.3f} {:10} (min {:.3f}, max {:.3f}, {} runs) {}\n", sample.name, sample.median, sample.unit,
-                   sample.min, sample.max, sample.runs, sample.note);
+        Sample sample{entry.name,     entry.unit,    entry.note,        values[values.size() / 2],
+                      values.front(), values.back(), int(values.size())};
+        fmt::print("{:24} {:12.3f} {:10} (min {:.3f}, max {:.3f}, {} runs) {}\n", sample.name, sample.median,
+                   sample.unit, sample.min, sample.max, sample.runs, sample.note);
         std::fflush(stdout);
         samples.push_back(std::move(sample));
     }
@@ -73,7 +79,8 @@ std::vector<Sample> Suite::run(const std::vector<std::string>& wanted,
 
 std::vector<std::string> Suite::names() const {
     std::vector<std::string> names;
-    for (const Entry& entry : entries_) names.push_back(entry.name);
+    for (const Entry& entry : entries_)
+        names.push_back(entry.name);
     return names;
 }
 
@@ -85,8 +92,9 @@ static std::string cpu_model() {
 }
 
 bool write_json(const std::string& path, const std::vector<Sample>& samples) {
-    std::string out = fmt::format("{{\"machine\": {{\"cpu\": \"{}\", \"threads\": {}, \"compiler\": \"{}\"}},\n \"results\": [",
-                                  cpu_model(), std::thread::hardware_concurrency(), __VERSION__);
+    std::string out =
+        fmt::format("{{\"machine\": {{\"cpu\": \"{}\", \"threads\": {}, \"compiler\": \"{}\"}},\n \"results\": [",
+                    cpu_model(), std::thread::hardware_concurrency(), __VERSION__);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Sample& s = samples[i];
         out += fmt::format("{}\n  {{\"name\": \"{}\", \"unit\": \"{}\", \"median\": {}, \"min\": {}, \"max\": {}, "
@@ -103,8 +111,10 @@ int run_main(Suite& suite, int argc, char** argv) {
     std::vector<std::string> wanted;
     std::string json;
     for (int i = 1; i < argc; ++i) {
-        if (std::string(argv[i]) == "--json" && i + 1 < argc) json = argv[++i];
-        else wanted.emplace_back(argv[i]);
+        if (std::string(argv[i]) == "--json" && i + 1 < argc)
+            json = argv[++i];
+        else
+            wanted.emplace_back(argv[i]);
     }
     const auto samples = suite.run(wanted, {});
     if (!json.empty() && !write_json(json, samples)) {

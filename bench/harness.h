@@ -7,8 +7,8 @@
 //         });
 //     }
 //
-// The unit's name decides the scale: "ns", "us", "ms" are time an item; "/s" is items a second, "M/s" millions; anything
-// else is what `report` was given (bytes a chunk, ...).
+// The unit's name decides the scale: "ns", "us", "ms" are time an item; "/s" is items a second, "M/s" millions;
+// anything else is what `report` was given (bytes a chunk, ...).
 #pragma once
 
 #include "base/types.h"

@@ -20,12 +20,21 @@ static Input mutate(const std::vector<Input>& corpus, vitrail::Rng& rng) {
     for (unsigned steps = 1 + rng.below(8); steps > 0; --steps) {
         const unsigned at = out.empty() ? 0 : rng.below(unsigned(out.size()));
         switch (rng.below(7)) {
-        case 0: if (!out.empty()) out[at] ^= (unsigned char)(1u << rng.below(8)); break;
-        case 1: if (!out.empty()) out[at] = (unsigned char)rng.below(256); break;
-        case 2: out.insert(out.begin() + at, (unsigned char)rng.below(256)); break;
-        case 3: out.resize(at); break;
+        case 0:
+            if (!out.empty()) out[at] ^= (unsigned char)(1u << rng.below(8));
+            break;
+        case 1:
+            if (!out.empty()) out[at] = (unsigned char)rng.below(256);
+            break;
+        case 2:
+            out.insert(out.begin() + at, (unsigned char)rng.below(256));
+            break;
+        case 3:
+            out.resize(at);
+            break;
         case 4: // values at the edges of their types
-            for (unsigned i = at; i < at + (1u << rng.below(4)) && i < out.size(); ++i) out[i] = rng.below(2) ? 0xff : 0x7f;
+            for (unsigned i = at; i < at + (1u << rng.below(4)) && i < out.size(); ++i)
+                out[i] = rng.below(2) ? 0xff : 0x7f;
             break;
         case 5: { // a piece of another input
             const Input& other = corpus[rng.below(unsigned(corpus.size()))];
@@ -35,7 +44,9 @@ static Input mutate(const std::vector<Input>& corpus, vitrail::Rng& rng) {
             out.insert(out.begin() + at, other.begin() + from, other.begin() + from + n);
             break;
         }
-        default: if (!out.empty()) out.erase(out.begin() + at); break;
+        default:
+            if (!out.empty()) out.erase(out.begin() + at);
+            break;
         }
     }
     return out;
@@ -51,16 +62,20 @@ int main(int argc, char** argv) {
     };
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
-        if (word == "--runs" && i + 1 < argc) runs = std::atol(argv[++i]);
-        else if (word == "--seconds" && i + 1 < argc) seconds = std::atof(argv[++i]);
+        if (word == "--runs" && i + 1 < argc)
+            runs = std::atol(argv[++i]);
+        else if (word == "--seconds" && i + 1 < argc)
+            seconds = std::atof(argv[++i]);
         else if (std::filesystem::is_directory(word)) {
             for (const auto& entry : std::filesystem::recursive_directory_iterator(word))
                 if (entry.is_regular_file()) load(entry.path());
-        } else if (std::filesystem::exists(word)) load(word);
+        } else if (std::filesystem::exists(word))
+            load(word);
     }
     const std::size_t seeds = corpus.size();
     if (corpus.empty()) corpus.push_back({});
-    for (const Input& input : corpus) LLVMFuzzerTestOneInput(input.data(), input.size());
+    for (const Input& input : corpus)
+        LLVMFuzzerTestOneInput(input.data(), input.size());
     vitrail::Rng rng(1);
     const auto start = std::chrono::steady_clock::now();
     long done = 0;
