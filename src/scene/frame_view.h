@@ -32,6 +32,13 @@ struct SkyState {
     Vec3 zenith, horizon;   // colors of the dome
     Vec3 fog;               // color that far land fades to
     float stars = 0;        // 0..1
+    Vec3 glow;              // light scattered around the sun at dawn and dusk
+};
+
+// Boxes outlined in the world: the picked block. Boxes are relative to the block's least corner, in blocks.
+struct Outline {
+    Located<BlockPos> at;
+    std::vector<Box> boxes;
 };
 
 struct FrameView {
@@ -41,6 +48,7 @@ struct FrameView {
     float view_distance = 192; // blocks
     float seconds = 0;         // for animation; never wraps visibly (kept below 2^16)
     float gamma_exposure = 1;
+    std::vector<Outline> outlines;
 };
 
 } // namespace vitrail::scene
