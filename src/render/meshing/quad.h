@@ -10,7 +10,8 @@
 //       32..47 texture             TextureId
 //       48..50 tint                TintKind
 //       51..58 fixed tint          index into the table of fixed tints, 0 white
-//       59     sways   60 liquid surface (moves, animated normal)   61 never mipped   62..63 zero
+//       59     sways   60 liquid surface (moves, animated normal)   61 never mipped
+//       62..63 texture turns       quarter turns of the picture, clockwise seen from outside (cube quads; scene/block_model.h)
 // A model quad keeps x, y, z, texture, tint and flags; bits 12..22 and 24..31 together are its index into the table of model
 // quads (scene/block_model.h): low 11 bits in 12..22, high 8 in 24..31.
 //
@@ -28,6 +29,9 @@
 namespace vitrail::render {
 
 enum QuadFlag : u64 { kQuadSways = 1ull << 59, kQuadLiquid = 1ull << 60, kQuadNeverMipped = 1ull << 61 };
+
+// A cube quad with kQuadLiquid and face up is a level liquid surface: drawn this much lower, in 1/256 block (8/9 high).
+inline constexpr u32 kLiquidDrop = 28;
 
 struct Quad {
     u64 bits = 0;
@@ -53,6 +57,7 @@ struct Quad {
     constexpr TextureId texture() const { return TextureId(bits >> 32 & 0xffff); }
     constexpr TintKind tint() const { return TintKind(bits >> 48 & 7); }
     constexpr u8 fixed_tint() const { return u8(bits >> 51); }
+    constexpr u32 turns() const { return u32(bits >> 62); }
     friend constexpr bool operator==(const Quad&, const Quad&) = default;
 
 private:

@@ -1,0 +1,52 @@
+// The light of a section as the GPU samples it: an 18^3 volume, one border cell around the section, in which opaque
+// cells hold light spread from open cells beside them, so that smooth (trilinear) sampling just in front of a face
+// neither darkens nor leaks. A light change needs a new brick but no new mesh.
+//
+// Texels: RGBA4, cells[x + 18 * z + 324 * y] for x, y, z = -1..16 shifted by one: texture axes are (x, z, y). A texel
+// is Light::bits unchanged; uploaded as GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4 (whose first component is the highest
+// nibble) it reads as r = blue, g = green, b = red, a = sky: `vec4 sky_rgb = texel.abgr`. A point p of the section
+// (blocks, 0..16) is sampled at (p.xzy + 1) / 18.
+#pragma once
+
+#include "render/meshing/mesher.h"
+
+#include <array>
+#include <span>
+
+namespace vitrail::render {
+
+struct LightBrick {
+    static constexpr i32 kSize = 18;
+    static constexpr u32 index(i32 x, i32 y, i32 z) { return u32((x + 1) + kSize * (z + 1) + kSize * kSize * (y + 1)); }
+    bool uniform = false; // every cell is `value`; cells are not written then
+    Light value;
+    alignas(64) std::array<u16, kSize * kSize * kSize> cells;
+};
+
+// From the same 27 chunks as the mesh. Opaque cells, absent and unlit chunks take the light of open cells beside them:
+// on each axis the darker where both sides are open (a thin wall must not let light into a dark room), else the open
+// one; averaged over the axes; cells with no open side take the average of sides so filled; cells deeper keep 0 (never
+// sampled). Neighboring bricks agree in the cells they share, where all 27 chunks of both are the same.
+void build_light_brick(const MeshInput& input, LightBrick& out);
+
+// Grass, foliage and water colors around a section, for bilinear sampling.
+struct TintGrid {
+    static constexpr i32 kSize = 6; // four cells of 4 blocks and one border cell on each side
+    static constexpr u32 index(i32 cell_x, i32 cell_z) { return u32((cell_x + 1) + kSize * (cell_z + 1)); } // -1..4
+    using Texels = std::array<std::array<u8, 4>, kSize * kSize>; // sRGB and 255
+    Texels grass{}, foliage{}, water{};
+    bool uniform = false; // one color everywhere
+    friend bool operator==(const TintGrid&, const TintGrid&) = default;
+};
+
+// sRGB colors of a biome.
+struct BiomeTint {
+    std::array<u8, 3> grass{127, 178, 89}, foliage{104, 158, 70}, water{63, 118, 228};
+};
+
+// From the section and its 8 neighbors at the same height; colors are blended with a tent over 12 blocks (radius 8),
+// all four layers of biomes together. Ids beyond `tints` and absent chunks take the tints of the nearest known
+// (section: entry 0). A point of the section (blocks, 0..16) is sampled at (p.xz / 4 + 1) / 6.
+TintGrid build_tint_grid(const MeshInput& input, std::span<const BiomeTint> tints);
+
+} // namespace vitrail::render
