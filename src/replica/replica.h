@@ -1,0 +1,197 @@
+// Replica: the client's world without graphics: what the server has told, with the player's own movement and edits
+// predicted on top. One thread owns it (the game loop); workers get ChunkPtr snapshots. How to use it, each frame:
+//
+//     replica.poll();                                        // take in what arrived
+//     if (replica.joined()) {
+//         replica.move(buttons, yaw, pitch, seconds);        // fixed steps of 1/60 s, predicted and sent
+//         if (clicked) replica.break_block(hit.at, face, point);
+//         for (DirtySection d : replica.take_dirty()) ...    // mesh or upload again
+//         draw(replica.body_before(), replica.body(), replica.alpha());
+//     }
+//
+// Predictions: an edit is applied to the replica at once by the same rules as the server's and its light flooded here.
+// The server's own version of every section it touched is kept beside it; when the answers are in, that version is what
+// stays, so a refused edit vanishes and the replica always ends equal to what the server told. Blocks that a predicted
+// break lays bare and whose states are not known are shown as their nearest known neighbor until the answer.
+#pragma once
+
+#include "net/messages.h"
+#include "net/transport.h"
+#include "rules/movement.h"
+#include "world/biome_table.h"
+#include "world/dimension.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace vitrail::replica {
+
+struct ReplicaOptions {
+    std::string name = "player"; // 1..32 of A-Z a-z 0-9 _ -
+    u32 view_distance = 12;      // chunks
+    // Content known already (same machine, or kept from an earlier session); used where its hash equals the server's.
+    std::shared_ptr<const BlockRegistry> registry;
+};
+
+enum SectionChange : u8 { kBlocksChanged = 1, kLightChanged = 2, kGone = 4 };
+
+struct DirtySection {
+    ChunkPos at;
+    u8 what = 0; // SectionChange bits; a section that is new has kBlocksChanged | kLightChanged
+};
+
+// An answer to an edit, for sounds and messages.
+struct EditAnswer {
+    u32 sequence = 0;
+    net::EditOutcome outcome{};
+    std::string reason;
+};
+
+struct ReplicaStats {
+    u64 messages = 0, bytes = 0, sections = 0, corrections = 0; // corrections: bodies that the server set right
+    u32 pending_edits = 0, pending_commands = 0;
+};
+
+class Replica {
+public:
+    Replica(std::unique_ptr<net::Transport> transport, ReplicaOptions options);
+    ~Replica();
+
+    // Takes in at most `most` messages. False once the session is over.
+    bool poll(std::size_t most = std::size_t(-1));
+    bool joined() const { return dimension_ != nullptr; }
+    bool lost() const { return lost_; }
+    const std::string& lost_reason() const { return lost_reason_; }
+    void leave();
+
+    // Below: only once joined.
+    Dimension& dimension() { return *dimension_; }
+    const Dimension& dimension() const { return *dimension_; }
+    const std::vector<DimensionInfo>& dimensions() const { return dimensions_; }
+    const std::shared_ptr<StateTable>& states() const { return states_; }
+    const std::shared_ptr<const BlockRegistry>& registry() const { return registry_; }
+    // Same ids as in the chunks; ids never change while joined.
+    const BiomeTable& biomes() const { return biomes_; }
+    // Each dirty section once, with all that happened to it since the last call.
+    std::vector<DirtySection> take_dirty();
+    // True where the section and its 26 neighbors that can be expected are here, so that a mesh of it will last.
+    bool has_section(ChunkPos at) const { return dimension_ && dimension_->find(at) != nullptr; }
+
+    // Runs as many steps of 1/60 s as have come due after `seconds` more (at most 15 a call), with this input each.
+    void move(const rules::MoveInput& input, float seconds);
+    const rules::Body& body() const { return body_; }
+    const rules::Body& body_before() const { return body_before_; }
+    float alpha() const { return alpha_; } // 0 body_before .. 1 body
+
+    // Predicts and requests; the sequence number, or why the rules say no (nothing is sent then).
+    Result<u32> break_block(BlockPos at, Face face, Vec3 hit);
+    // `at`: the block aimed at. `held`: block name, e.g. minecraft:oak_log.
+    Result<u32> place_block(BlockPos at, Face face, Vec3 hit, const std::string& held);
+    std::vector<EditAnswer> take_answers();
+
+    void set_view_distance(u32 chunks);
+    u32 view_distance() const { return view_distance_; } // granted
+    void say(const std::string& text);
+    void set_hotbar(std::vector<std::string> names, u32 selected);
+    const std::vector<std::string>& hotbar() const { return hotbar_; }
+    u32 hotbar_selected() const { return hotbar_selected_; }
+    std::vector<net::Notice> take_notices();
+    // 0..24000, runs on between the server's ticks.
+    float time_of_day() const;
+    u64 seed() const { return seed_; }
+    ReplicaStats stats() const;
+
+private:
+    struct PendingEdit {
+        u32 sequence = 0;
+        std::vector<Edit> edits; // with the guesses for blocks laid bare
+    };
+
+    // replica_messages.cpp: one function a message.
+    void hear(ByteView bytes);
+    Result<> take(net::Welcome&);
+    Result<> take(net::RegistryData&);
+    Result<> take(net::StateTexts&);
+    Result<> take(net::BiomeTexts&);
+    Result<> take(net::Sections&);
+    Result<> take(net::AirSections&);
+    Result<> take(net::SectionsGone&);
+    Result<> take(net::HeightsOfColumns&);
+    Result<> take(net::BlockChanges&);
+    Result<> take(net::LightChanges&);
+    Result<> take(net::EditResult&);
+    Result<> take(net::BodyState&);
+    Result<> take(net::TimeOfDay&);
+    Result<> take(net::Notice&);
+    Result<> take(net::Goodbye&);
+    Result<StateId> own_state(u32 server_id) const;
+    Result<> check_dimension(u32 id) const;
+    void lose(std::string reason);
+
+    // predicted_edits.cpp
+    ChunkPtr server_chunk(ChunkPos at) const; // as the server told it, without predictions
+    void put_server_chunk(ChunkPos at, ChunkPtr chunk, u8 what);
+    void predict(const std::vector<Edit>& edits);
+    void settle(); // shows the server's version with the pending edits on top
+    void keep_server_version(ChunkPos at);
+    Result<u32> request(net::EditRequest request, std::vector<Edit> edits);
+    std::vector<Edit> guess_laid_bare(const std::vector<Edit>& edits) const;
+    void mark(ChunkPos at, u8 what);
+
+    // predicted_movement.cpp
+    void run_step(const rules::MoveInput& input);
+    void send_commands();
+
+    template <class M>
+    void send(net::Channel channel, const M& message);
+
+    std::unique_ptr<net::Transport> transport_;
+    ReplicaOptions options_;
+    bool lost_ = false;
+    std::string lost_reason_;
+
+    std::shared_ptr<const BlockRegistry> registry_;
+    std::shared_ptr<StateTable> states_;
+    std::vector<StateId> own_states_; // by the server's id
+    BiomeTable biomes_;
+    std::vector<DimensionInfo> dimensions_;
+    std::unique_ptr<Dimension> dimension_; // null until Welcome
+    ChunkPtr open_air_;                    // what every one of AirSections is
+    std::unordered_map<ChunkPos, u8> dirty_;
+
+    // Edits.
+    std::deque<PendingEdit> pending_;
+    std::unordered_map<ChunkPos, ChunkPtr> server_chunks_; // of sections that predictions changed
+    std::unordered_map<ColumnPos, ColumnHeights> server_heights_;
+    bool unsettled_ = false;
+    u32 next_sequence_ = 1;
+    std::vector<EditAnswer> answers_;
+
+    // Movement.
+    struct SentCommand {
+        net::WireCommand command;
+        rules::Body after;
+    };
+    rules::Body body_, body_before_;
+    std::deque<SentCommand> commands_; // not answered
+    u32 next_command_ = 1;
+    float due_ = 0, alpha_ = 0; // seconds; part of a step
+    float yaw_ = 0, pitch_ = 0;
+
+    u32 view_distance_ = 0;
+    std::vector<std::string> hotbar_;
+    u32 hotbar_selected_ = 0;
+    std::vector<net::Notice> notices_;
+    u32 time_of_day_ = 0;
+    u64 time_heard_ns_ = 0;
+    u64 seed_ = 0;
+    u64 section_bytes_ = 0, section_bytes_told_ = 0;
+    ReplicaStats stats_;
+};
+
+} // namespace vitrail::replica

@@ -1,0 +1,27 @@
+// Which columns are loaded: all that some session may see, nearest first and in the direction it looks, and no others.
+#pragma once
+
+#include "server/world.h"
+
+namespace vitrail::server {
+
+// Columns further than the view distance that stay loaded, so that walking to and fro loads nothing.
+inline constexpr i32 kKeepMargin = 3;
+// Columns beyond the view distance that are loaded: sections at the edge need their neighbors for surfaces and light.
+inline constexpr i32 kLoadMargin = 1;
+
+// Asks workers for columns that are missing.
+void request_columns(ServerWorld& world);
+// Puts finished columns into their dimensions and lights them, for at most `budget_ms`.
+void publish_columns(ServerWorld& world, float budget_ms);
+// Lets columns go that nobody needs; what was changed in them has been handed to the store before.
+void unload_columns(ServerWorld& world);
+
+// True where this column and the eight around it are ready: its surfaces and light will stay as they are.
+bool surrounded(const ServerDimension& dimension, ColumnPos at);
+bool ready(const ServerDimension& dimension, ColumnPos at);
+
+// The chunk, made as air where its column is made and it is absent; null where there is nothing.
+ChunkPtr require_chunk(ServerDimension& dimension, ChunkPos at);
+
+} // namespace vitrail::server

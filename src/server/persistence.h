@@ -1,0 +1,22 @@
+// Opening a world's directory and write-behind saving of what a tick changed.
+#pragma once
+
+#include "server/world.h"
+
+namespace vitrail::server {
+
+// Opens or makes the world in options.folder. Errors: see Server::open.
+Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shared_ptr<const BlockRegistry> registry);
+
+// Hands what changed to the store as one batch; the sessions hear of it when it is on disk.
+void save_changes(ServerWorld& world);
+// Everything, players and level too, and waits for the disk. Errors: io.
+Result<> save_all(ServerWorld& world);
+// Tells sessions which edits are on disk now.
+void tell_kept(ServerWorld& world);
+
+PlayerRecord player_record(const Session& session);
+// Puts the player where it was when it left, or at the spawn.
+Result<> restore_player(ServerWorld& world, Session& session);
+
+} // namespace vitrail::server

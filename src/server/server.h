@@ -1,0 +1,91 @@
+// Server: a world directory, a thread that ticks it at 20 Hz, and the sessions that play in it. How to use it:
+//
+//     VX_TRY_ASSIGN(auto server, Server::open({.folder = "worlds/mine"}, registry));
+//     auto [near, far] = net::make_loopback();
+//     server->connect(std::move(far));        // the replica takes `near`
+//     server->start();                        // or tick_once() by hand, in tests
+//     ...
+//     VX_TRY(server->stop());                 // saves everything; the destructor does the same and logs a failure
+//
+// The world itself is plain data (server/world.h) and the systems are free functions over it: sessions (session.h),
+// chunks (chunk_loading.h), what each session sees (interest.h), edits (edits.h), saving (persistence.h), the tick
+// (tick.h). docs/decisions/0005-threads.md says which thread owns what.
+#pragma once
+
+#include "base/result.h"
+#include "base/types.h"
+#include "net/transport.h"
+#include "world/block_registry.h"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace vitrail::server {
+
+inline constexpr u32 kTicksASecond = 20;
+
+struct ServerOptions {
+    std::string folder;                  // the world's directory
+    bool create = true;                  // make a world where there is none
+    std::optional<u64> seed;             // of a new world; none: random
+    std::string generator = "hills";     // of a new world; "" makes an empty one
+    std::string name = "World";          // of a new world
+    unsigned threads = 1;                // workers that load, generate and light; 0: inside the tick
+    u32 view_distance_most = 24;         // chunks
+    u32 save_group_ms = 100;             // how long a commit waits for company
+    u32 bytes_a_tick_most = 512u << 10;  // section bytes sent to one session in one tick
+    u64 bytes_in_flight_most = 4u << 20; // section bytes sent and not acknowledged
+};
+
+struct ServerStats {
+    u64 ticks = 0;
+    float tick_ms = 0, tick_ms_max = 0; // the last, and the longest of the last 100
+    u32 sessions = 0, columns = 0, chunks = 0, columns_waiting = 0;
+    u64 sections_sent = 0, bytes_sent = 0, save_pending_bytes = 0;
+    u64 chunk_memory_bytes = 0; // blocks and light of loaded chunks; counted once a second
+};
+
+struct ServerWorld;
+
+class Server {
+public:
+    // Errors: the store's (not_found, busy, damaged, unsupported, io), invalid_argument (unknown generator).
+    static Result<std::unique_ptr<Server>> open(ServerOptions options, std::shared_ptr<const BlockRegistry> registry);
+    ~Server();
+
+    // A new client's connection; any thread.
+    void connect(std::unique_ptr<net::Transport> transport);
+
+    void start();
+    // Ends the thread, says goodbye to all sessions and saves everything. Errors: io, where saving failed.
+    Result<> stop();
+    // Ends without saving what waits: what a killed process leaves. For tests.
+    void abandon();
+
+    // One tick in the calling thread; only while not started.
+    void tick_once();
+
+    ServerStats stats() const; // any thread
+    // The world; only in the thread that ticks it, or while not started.
+    ServerWorld& world() { return *world_; }
+
+private:
+    Server();
+    void run();
+
+    std::unique_ptr<ServerWorld> world_;
+    std::thread thread_;
+    std::atomic<bool> stopping_{false};
+    bool stopped_ = false;
+    std::mutex arrivals_mutex_;
+    std::vector<std::unique_ptr<net::Transport>> arrivals_;
+    mutable std::mutex stats_mutex_;
+    ServerStats stats_;
+};
+
+} // namespace vitrail::server

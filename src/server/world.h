@@ -1,0 +1,80 @@
+// ServerWorld: all that a running world is, as plain data; the systems are free functions over it (tick.h and the
+// headers it names). Only the thread that ticks touches it, but for `arrived` and `kept`, which have a lock of their
+// own.
+#pragma once
+
+#include "jobs/thread_pool.h"
+#include "pipeline/chunk_source.h"
+#include "server/server.h"
+#include "server/session.h"
+#include "store/save_queue.h"
+#include "store/world_records.h"
+
+#include <map>
+#include <mutex>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace vitrail::server {
+
+struct Column {
+    enum class State : u8 { loading, ready }; // ready: in the dimension and lit
+    State state = State::loading;
+    bool made = false;   // its absent chunks are air; else there is nothing here
+    bool stored = false; // all of it is in the store, so that saving its changed chunks is enough
+};
+
+struct ServerDimension {
+    Dimension dimension;
+    std::unordered_map<ColumnPos, Column> columns;
+    // face_connections of sections looked at; goes with the section's blocks.
+    std::unordered_map<ChunkPos, u64> connections;
+    // To be saved with the next batch.
+    std::unordered_set<ChunkPos> dirty_chunks;
+    std::unordered_set<ColumnPos> dirty_columns;
+    // Light that sessions have not been told of.
+    std::unordered_set<ChunkPos> light_changed;
+    std::unordered_set<ColumnPos> heights_changed;
+    u64 opened = 0; // grows when columns come or connections change, so that interest is walked again
+    u32 loading = 0;
+};
+
+// What workers hand back to the tick.
+struct Arrived {
+    DimensionId dimension{};
+    Result<ColumnData> column;
+    ColumnPos at;
+};
+
+struct Mailbox {
+    std::mutex mutex;
+    std::vector<Arrived> columns;
+    std::vector<std::pair<u32, u32>> kept; // session, last edit sequence that is on disk
+};
+
+struct ServerWorld {
+    ServerOptions options;
+    std::shared_ptr<const BlockRegistry> registry;
+    Bytes registry_bytes; // net/registry_codec.h
+    u64 content_hash = 0;
+
+    LevelRecord level;
+    bool level_dirty = false;
+    std::unique_ptr<WorldRecords> records;
+    // Writer thread and workers post here; it must outlive both.
+    std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>();
+    std::unique_ptr<SaveQueue> saves;
+    std::unique_ptr<ChunkSource> source;
+    std::map<DimensionId, ServerDimension> dimensions;
+    std::vector<std::unique_ptr<Session>> sessions;
+    u32 next_session = 1;
+    u64 tick = 0;
+    ServerStats stats;
+    // Last, so that it ends first: its tasks use what stands above.
+    std::unique_ptr<ThreadPool> pool;
+
+    StateTable& states() const { return records->states(); }
+    BiomeTable& biomes() const { return records->biomes(); }
+};
+
+} // namespace vitrail::server
