@@ -139,9 +139,13 @@ private:
     WorldRecords(std::unique_ptr<WorldStore> store, std::shared_ptr<const BlockRegistry> registry);
     Result<> load_tables();
     void set_aside(Table table, ByteView key, ByteView record, const std::string& reason);
-    template <class T>
-    Result<std::optional<T>> load(Table table, const Bytes& key);
-    Result<ChunkPtr> decode(ByteView key, ByteView record);
+    // What can be wrong with one record: handled here, so that the callers see only good ones and the store's errors.
+    template <class Parse>
+    auto load(Table table, const Bytes& key, u8 version_most, Parse parse)
+        -> Result<std::optional<typename decltype(parse(ByteView{}))::value_type>>;
+    template <class Visit>
+    Result<> load_range(Table table, ByteView from, ByteView to, u8 version_most, Visit visit);
+    DecodeLimits decode_limits() const;
 
     std::unique_ptr<WorldStore> store_;
     std::shared_ptr<StateTable> states_;
