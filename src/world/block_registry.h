@@ -51,6 +51,7 @@ public:
     const BiomeDef& biome_named(std::string_view name) const;          // the plain one where there is none
     std::vector<std::string> hotbar;                                   // block names
     std::vector<std::string> content_roots;                            // folders that hold textures/, first wins
+    u64 content_hash = 0;                                              // XXH3 of the scripts all this was read from
 
 private:
     std::vector<BlockDef> blocks_;
