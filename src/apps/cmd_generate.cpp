@@ -1,0 +1,160 @@
+#include "apps/commands.h"
+
+#include "base/clock.h"
+#include "jobs/thread_pool.h"
+#include "pipeline/chunk_source.h"
+#include "script/content_loader.h"
+#include "terrain/generator.h"
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <fmt/format.h>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+namespace vitrail::apps {
+
+namespace {
+
+struct Area {
+    i32 x0, z0, x1, z1; // columns, inclusive
+    u64 count() const { return (u64(i64(x1) - x0) + 1) * (u64(i64(z1) - z0) + 1); }
+};
+
+Result<Area> parse_area(const std::string& text) {
+    VX_TRY_ASSIGN(const auto n, parse_numbers("--columns", text, 4));
+    constexpr double edge = kWorldEdge / kChunkSize;
+    for (double v : n)
+        if (v != std::floor(v) || v < -edge || v >= edge)
+            return fail(ErrorCode::invalid_argument, fmt::format("--columns wants whole columns inside the world, not '{}'", text));
+    const Area area{i32(n[0]), i32(n[1]), i32(n[2]), i32(n[3])};
+    if (area.x1 < area.x0 || area.z1 < area.z0)
+        return fail(ErrorCode::invalid_argument, "--columns wants X0,Z0 at or below X1,Z1");
+    if (area.count() > 1'000'000) return fail(ErrorCode::limit, "--columns takes at most 1000000 columns at once");
+    return area;
+}
+
+// Saves generated columns in batches, each one transaction.
+class Keeper {
+public:
+    static Result<std::unique_ptr<Keeper>> open(const std::string& folder, u64 seed, std::shared_ptr<const BlockRegistry> registry) {
+        auto keeper = std::make_unique<Keeper>();
+        VX_TRY_ASSIGN(keeper->records_, WorldRecords::open(folder, registry, {.create = true}));
+        VX_TRY_ASSIGN(const auto level, keeper->records_->load_level());
+        if (level && (level->seed != seed || level->generator != "hills"))
+            return fail(ErrorCode::invalid_argument,
+                        fmt::format("{} is a world of seed {} and generator '{}' already", folder, level->seed, level->generator));
+        if (!level) {
+            SaveBatch batch;
+            LevelRecord fresh;
+            fresh.name = "World";
+            fresh.seed = seed;
+            fresh.generator = "hills";
+            fresh.generator_version = ChunkSource::generator_version("hills");
+            fresh.spawn = {DimensionId::overworld, spawn_point(seed)};
+            batch.level = fresh;
+            batch.dimensions.push_back(DimensionInfo{});
+            VX_TRY(keeper->records_->save(batch));
+        }
+        return keeper;
+    }
+    StateTable& states() { return records_->states(); }
+    BiomeTable& biomes() { return records_->biomes(); }
+    Result<> keep(ColumnPos at, GeneratedColumn& column) {
+        std::lock_guard lock(mutex_);
+        for (std::size_t i = 0; i < column.chunks.size(); ++i)
+            batch_.chunks.push_back({DimensionId::overworld, {at.x, kTerrainMinY / 16 + i32(i), at.z},
+                                     std::make_shared<Chunk>(std::move(column.chunks[i]))});
+        ColumnRecord record;
+        record.heights.above = column.heights;
+        record.generated = true;
+        batch_.columns.push_back({DimensionId::overworld, at, record});
+        return batch_.columns.size() >= 64 ? flush_locked() : Result<>{};
+    }
+    Result<> flush() {
+        std::lock_guard lock(mutex_);
+        return flush_locked();
+    }
+
+private:
+    Result<> flush_locked() {
+        const SaveBatch batch = std::exchange(batch_, {});
+        return batch.empty() ? Result<>{} : records_->save(batch);
+    }
+    std::unique_ptr<WorldRecords> records_;
+    std::mutex mutex_;
+    SaveBatch batch_;
+};
+
+Result<TerrainPalette> make_palette(StateTable& states, BiomeTable& biomes) {
+    TerrainPalette palette;
+    for (u32 i = 0; i < kTerrainBlockCount; ++i) {
+        VX_TRY_ASSIGN(const BlockState state, parse_block_state(kTerrainBlockNames[i]));
+        VX_TRY_ASSIGN(palette.blocks[i], states.intern_with_defaults(state));
+        palette.takes_light[i] = states.light_data()[u32(palette.blocks[i])].opacity > 0;
+    }
+    for (u32 i = 0; i < kTerrainBiomeCount; ++i) {
+        VX_TRY_ASSIGN(palette.biomes[i], biomes.intern(kTerrainBiomeNames[i]));
+    }
+    return palette;
+}
+
+} // namespace
+
+Result<> run_generate(const GenerateOptions& options) {
+    if (options.device != "cpu" && options.device != "cuda")
+        return fail(ErrorCode::invalid_argument, fmt::format("--device is cpu or cuda, not '{}'", options.device));
+    if (options.device == "cuda") return fail(ErrorCode::not_found, "this build generates on the cpu only");
+    if (options.list) {
+        fmt::print("generator hills, version {}\n", ChunkSource::generator_version("hills"));
+        for (const char* name : kTerrainBiomeNames) fmt::print("biome {}\n", name);
+        for (const char* name : kTerrainBlockNames) fmt::print("block {}\n", name);
+        return {};
+    }
+    if (options.columns.empty()) return fail(ErrorCode::invalid_argument, "generate wants --columns X0,Z0,X1,Z1 (or --list)");
+    VX_TRY_ASSIGN(const Area area, parse_area(options.columns));
+    if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
+    VX_TRY_ASSIGN(const auto registry, load_base_content());
+
+    std::unique_ptr<Keeper> keeper;
+    StateTable own_states(registry);
+    BiomeTable own_biomes;
+    if (!options.world.empty()) {
+        VX_TRY_ASSIGN(keeper, Keeper::open(options.world, options.seed, registry));
+    }
+    VX_TRY_ASSIGN(const TerrainPalette palette,
+                  make_palette(keeper ? keeper->states() : own_states, keeper ? keeper->biomes() : own_biomes));
+    const u64 start = now_ns();
+    std::atomic<u64> hash{0}, filled{0};
+    std::mutex error_mutex;
+    Result<> trouble;
+    ThreadPool pool(default_worker_count());
+    const u32 width = u32(area.x1 - area.x0 + 1);
+    pool.parallel_for(u32(area.count()), [&](u32 i) {
+        const ColumnPos at{area.x0 + i32(i % width), area.z0 + i32(i / width)};
+        GeneratedColumn column = generate_column(options.seed, at, palette);
+        // A sum, so that the order of columns does not matter; the position is mixed in, so that their places do.
+        if (options.hash) hash += hash_combine(hash_combine(u32(at.x), u32(at.z)), column_hash(column));
+        for (const Chunk& chunk : column.chunks)
+            filled += !(chunk.blocks.uniform() && chunk.blocks.get(LocalPos(0u)) == StateId::air);
+        if (!keeper) return;
+        if (auto result = keeper->keep(at, column); !result) {
+            std::lock_guard lock(error_mutex);
+            trouble = result;
+        }
+    });
+    VX_TRY(trouble);
+    if (keeper) VX_TRY(keeper->flush());
+    const double seconds = seconds_since(start);
+    fmt::print("{} columns, {} chunks with anything in them, {:.3f} s, {:.0f} columns/s\n", area.count(), filled.load(), seconds,
+               double(area.count()) / seconds);
+    if (options.hash) fmt::print("hash {:016x}\n", hash.load());
+    if (options.stats_file.empty()) return {};
+    const nlohmann::json stats = {{"columns", area.count()},          {"chunks", filled.load()},
+                                  {"seconds", seconds},               {"device", "cpu"},
+                                  {"peak_memory_bytes", peak_memory_bytes()}, {"hash", fmt::format("{:016x}", hash.load())}};
+    return write_file(options.stats_file, stats.dump(1) + "\n");
+}
+
+} // namespace vitrail::apps

@@ -1,0 +1,46 @@
+#include "apps/commands.h"
+
+#include "client/game.h"
+#include "script/content_loader.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace vitrail::apps {
+
+namespace fs = std::filesystem;
+
+// Where worlds and screenshots go when nobody says: $XDG_DATA_HOME/vitrail, else ~/.local/share/vitrail.
+static fs::path data_folder() {
+    if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data) return fs::path(data) / "vitrail";
+    if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".local/share/vitrail";
+    return fs::current_path();
+}
+
+Result<> run_play(const PlayOptions& options) {
+    if (options.renderer == "trace") return fail(ErrorCode::unsupported, "the path tracer is not built yet: use --renderer raster");
+    if (options.renderer != "raster")
+        return fail(ErrorCode::invalid_argument, fmt::format("--renderer is raster or trace, not '{}'", options.renderer));
+    if (!options.connect.empty()) return fail(ErrorCode::unsupported, "play --connect: joining over the network is not built yet");
+    client::GameOptions game;
+    if (!options.size.empty()) {
+        VX_TRY_ASSIGN(const auto size, parse_size(options.size));
+        game.width = size.first;
+        game.height = size.second;
+    }
+    const fs::path world = options.world.empty() ? data_folder() / "worlds/default" : fs::path(options.world);
+    std::error_code error;
+    fs::create_directories(world.parent_path().empty() ? fs::path(".") : world.parent_path(), error);
+    game.local.server.folder = world.string();
+    game.local.server.name = world.filename().string();
+    game.local.server.seed = options.seed;
+    game.local.replica.name = options.name;
+    game.view_distance = options.view_distance;
+    game.screenshot_folder = data_folder() / "screenshots";
+    if (const auto path = client::settings_path()) game.settings_file = *path;
+    VX_TRY_ASSIGN(const auto registry, load_base_content());
+    return client::run_game(game, registry);
+}
+
+} // namespace vitrail::apps

@@ -1,0 +1,91 @@
+#include "apps/commands.h"
+
+#include "base/clock.h"
+#include "client/still.h"
+#include "gfx/context.h"
+#include "terrain/generator.h"
+#include "world/block_registry.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vitrail::apps {
+
+// The demo picture: a place of a seed chosen by eye.
+static void choose_demo(RenderOptions& options) {
+    options.seed = 7;
+    options.size = "1280x720";
+    options.time = 2200;
+    options.view_distance = 14;
+}
+
+// Where a seed's spawn looks best from when no place is given: a little above it, looking along the land.
+static client::CameraPose pose_at_spawn(u64 seed) {
+    const BlockPos spawn = spawn_point(seed);
+    client::CameraPose pose;
+    pose.eye.at = world_pos_from_numbers(spawn.x + 0.5, spawn.y + 9.0, spawn.z + 0.5);
+    pose.yaw_deg = 30;
+    pose.pitch_deg = 12;
+    return pose;
+}
+
+Result<> run_render(const RenderOptions& wanted) {
+    RenderOptions options = wanted;
+    if (options.demo) choose_demo(options);
+    if (options.renderer != "raster" && options.renderer != "trace")
+        return fail(ErrorCode::invalid_argument, fmt::format("--renderer is raster or trace, not '{}'", options.renderer));
+    if (options.renderer == "trace") return fail(ErrorCode::unsupported, "the path tracer is not built yet: use --renderer raster");
+    if (options.world.empty() == !options.seed)
+        return fail(ErrorCode::invalid_argument, "render wants one of --world DIR and --seed N");
+    VX_TRY_ASSIGN(const auto size, parse_size(options.size));
+    client::StillOptions still_options;
+    still_options.world = options.world;
+    still_options.seed = options.seed.value_or(0);
+    still_options.dimension = options.dimension;
+    still_options.view_distance = u32(options.view_distance);
+    still_options.quality = options.quality == "low" ? render::Quality::low : render::Quality::high;
+    if (options.at.empty()) {
+        if (!options.seed) return fail(ErrorCode::invalid_argument, "render --world wants --at X,Y,Z and --look YAW,PITCH");
+        still_options.pose = pose_at_spawn(*options.seed);
+    } else {
+        VX_TRY_ASSIGN(const auto at, parse_numbers("--at", options.at, 3));
+        still_options.pose.eye.at = world_pos_from_numbers(at[0], at[1], at[2]);
+    }
+    if (!options.look.empty()) {
+        VX_TRY_ASSIGN(const auto look, parse_numbers("--look", options.look, 2));
+        still_options.pose.yaw_deg = float(std::fmod(look[0], 360.0));
+        still_options.pose.pitch_deg = float(std::clamp(look[1], -90.0, 90.0));
+    }
+    still_options.pose.fov_deg = options.fov_deg;
+    VX_TRY(check_writable(options.output));
+    if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
+    VX_TRY_ASSIGN(const auto registry, load_base_content());
+    VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, registry));
+
+    const u64 start = now_ns();
+    VX_TRY_ASSIGN(const auto image, still->draw(still_options.pose, size.first, size.second, options.time));
+    const double draw_s = seconds_since(start);
+    VX_TRY(render::write_png(options.output, image));
+    if (const u32 missing = still->renderer().missing_textures(); missing > 0)
+        fmt::print(stderr, "vitrail: info: {} textures are missing, the first is {}\n", missing,
+                   still->renderer().missing_texture_names().front());
+    if (options.stats_file.empty()) return {};
+    const auto& frame = still->renderer().stats();
+    const auto info = gfx::context_info();
+    const nlohmann::json stats = {{"seconds", {{"open", still->times().open_s}, {"world", still->times().world_s},
+                                               {"mesh", still->times().mesh_s}, {"draw", draw_s}}},
+                                  {"frames", 1},
+                                  {"rays", 0},
+                                  {"chunks", frame.sections},
+                                  {"chunks_visible", frame.sections_visible},
+                                  {"triangles", frame.triangles},
+                                  {"quads_held", frame.quads_held},
+                                  {"draw_calls", frame.draws},
+                                  {"gpu_bytes", frame.gpu_bytes},
+                                  {"missing_textures", still->renderer().missing_textures()},
+                                  {"peak_memory_bytes", peak_memory_bytes()},
+                                  {"device", info ? info->renderer : "unknown"}};
+    return write_file(options.stats_file, stats.dump(1) + "\n");
+}
+
+} // namespace vitrail::apps

@@ -1,0 +1,89 @@
+// The commands of `vitrail`: options as plain structs (filled by main.cpp) and one function each. A function returns the
+// exit status's cause: an Error ends the program with one line on standard error and status 2.
+#pragma once
+
+#include "base/result.h"
+#include "base/types.h"
+#include "voxel/coords.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vitrail {
+class BlockRegistry;
+}
+
+namespace vitrail::apps {
+
+struct ImportOptions {
+    std::string source, world, count_file;
+    bool quiet = false;
+};
+Result<> run_import(const ImportOptions& options);
+
+struct WorldOptions {
+    std::string world, blocks_file, target;
+};
+Result<> run_inspect(const WorldOptions& options);
+Result<> run_verify(const WorldOptions& options);
+Result<> run_backup(const WorldOptions& options);
+
+struct GenerateOptions {
+    u64 seed = 1;
+    std::string columns; // X0,Z0,X1,Z1 in chunk columns, inclusive
+    std::string device = "cpu", world, stats_file;
+    bool hash = false, list = false;
+};
+Result<> run_generate(const GenerateOptions& options);
+
+struct RenderOptions {
+    std::string world, dimension, at, look, size = "854x480", renderer = "raster", device, output, stats_file;
+    std::optional<u64> seed;
+    float fov_deg = 70, time = 6000;
+    int view_distance = 12, spp = 1;
+    std::string quality = "high";
+    bool demo = false;
+};
+Result<> run_render(const RenderOptions& options);
+
+struct PlayOptions {
+    std::string world, connect, renderer = "raster", size, name = "player";
+    std::optional<u64> seed;
+    int view_distance = 0; // 0: as the settings say
+};
+Result<> run_play(const PlayOptions& options);
+
+struct ServeOptions {
+    std::string world;
+    int port = 0;
+};
+Result<> run_serve(const ServeOptions& options);
+
+struct BenchOptions {
+    std::vector<std::string> names;
+    std::string json_file, world, at, look;
+    bool list = false;
+};
+Result<> run_bench(const BenchOptions& options);
+
+Result<> run_doctor();
+
+// --- shared by the commands ---
+
+// The folder content/: $VITRAIL_CONTENT, beside the program, or the source tree it was built from. Errors: not_found.
+Result<std::filesystem::path> content_folder();
+// content/base, compiled. Errors: those of the scripts.
+Result<std::shared_ptr<BlockRegistry>> load_base_content();
+// "1,2,3" to numbers; exactly `count` of them. Errors: invalid_argument, naming the option.
+Result<std::vector<double>> parse_numbers(const std::string& option, const std::string& text, std::size_t count);
+// "854x480"; 16 to 16384 a side.
+Result<std::pair<u32, u32>> parse_size(const std::string& text);
+// Writes a file whole (beside it first, then renamed) or says why not.
+Result<> write_file(const std::string& path, const std::string& text);
+// An early answer to "can this file be written?", before long work. The folder must exist; nothing is left behind.
+Result<> check_writable(const std::string& path);
+
+} // namespace vitrail::apps

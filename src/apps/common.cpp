@@ -1,0 +1,105 @@
+#include "apps/commands.h"
+
+#include "script/content_loader.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <unistd.h>
+
+namespace vitrail::apps {
+
+namespace fs = std::filesystem;
+
+Result<fs::path> content_folder() {
+    std::vector<fs::path> places;
+    if (const char* chosen = std::getenv("VITRAIL_CONTENT")) places.emplace_back(chosen);
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    if (!program.empty()) {
+        places.push_back(program / "../../../content"); // build/PRESET/bin
+        places.push_back(program / "../share/vitrail/content");
+    }
+#ifdef VITRAIL_SOURCE_DIR
+    places.emplace_back(fs::path(VITRAIL_SOURCE_DIR) / "content");
+#endif
+    for (const fs::path& place : places)
+        if (fs::is_directory(place / "base", ignored)) return fs::weakly_canonical(place, ignored);
+    return fail(ErrorCode::not_found, fmt::format("no content folder: looked in {} (set VITRAIL_CONTENT)", places.front().string()));
+}
+
+Result<std::shared_ptr<BlockRegistry>> load_base_content() {
+    VX_TRY_ASSIGN(const fs::path folder, content_folder());
+    const std::vector<fs::path> roots{folder / "base"};
+    return load_content(roots);
+}
+
+Result<std::vector<double>> parse_numbers(const std::string& option, const std::string& text, std::size_t count) {
+    std::vector<double> out;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (at < end) {
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || !std::isfinite(value) || (next < end && *next != ',')) break;
+        out.push_back(value);
+        at = next < end ? next + 1 : next;
+        if (next < end && at == end) break; // a comma at the end
+        if (next == end) {
+            if (out.size() != count) break;
+            return out;
+        }
+    }
+    return fail(ErrorCode::invalid_argument, fmt::format("{} wants {} numbers with commas between, not '{}'", option, count, text));
+}
+
+Result<std::pair<u32, u32>> parse_size(const std::string& text) {
+    u32 width = 0, height = 0;
+    const std::size_t x = text.find('x');
+    if (x != std::string::npos) {
+        const auto a = std::from_chars(text.data(), text.data() + x, width);
+        const auto b = std::from_chars(text.data() + x + 1, text.data() + text.size(), height);
+        if (a.ec == std::errc() && a.ptr == text.data() + x && b.ec == std::errc() && b.ptr == text.data() + text.size() &&
+            width >= 16 && height >= 16 && width <= 16384 && height <= 16384)
+            return std::pair{width, height};
+    }
+    return fail(ErrorCode::invalid_argument, fmt::format("--size wants WxH of 16 to 16384, not '{}'", text));
+}
+
+Result<> write_file(const std::string& path, const std::string& text) {
+    const std::string draft = fmt::format("{}.{}.part", path, getpid());
+    {
+        std::ofstream file(draft, std::ios::binary);
+        file << text;
+        if (!file.flush()) {
+            const std::string why = std::strerror(errno);
+            std::error_code ignored;
+            fs::remove(draft, ignored);
+            return fail(ErrorCode::io, fmt::format("cannot write {}: {}", path, why));
+        }
+    }
+    std::error_code error;
+    fs::rename(draft, path, error);
+    if (error) {
+        std::error_code ignored;
+        fs::remove(draft, ignored);
+        return fail(ErrorCode::io, fmt::format("cannot write {}: {}", path, error.message()));
+    }
+    return {};
+}
+
+Result<> check_writable(const std::string& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return fail(ErrorCode::io, fmt::format("cannot write {}: it is a folder", path));
+    const std::string draft = fmt::format("{}.{}.part", path, getpid());
+    std::ofstream file(draft, std::ios::binary);
+    if (!file) return fail(ErrorCode::io, fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+    file.close();
+    fs::remove(draft, error);
+    return {};
+}
+
+} // namespace vitrail::apps

@@ -1,0 +1,137 @@
+// `vitrail`: reads the command line (a contract: README.md) and runs one command. Any error is one line and status 2.
+#include "apps/commands.h"
+
+#include "base/log.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+
+using namespace vitrail;
+using namespace vitrail::apps;
+
+namespace {
+
+struct Command {
+    CLI::App* app;
+    std::function<Result<>()> run;
+};
+
+std::string first_line(std::string text) { return text.substr(0, text.find('\n')); }
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Vitrail: a voxel world to walk in, change and keep");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "vitrail 0.1.0");
+    bool verbose = false;
+    app.add_flag("--verbose", verbose, "more log lines");
+    std::vector<Command> commands;
+
+    ImportOptions import_options;
+    {
+        auto* c = app.add_subcommand("import", "Bring a Minecraft world into a Vitrail world, or count its blocks");
+        c->add_option("SOURCE", import_options.source, "Minecraft folder or region file")->required();
+        auto* world = c->add_option("--world", import_options.world, "world folder to fill");
+        auto* count = c->add_option("--count", import_options.count_file, "write block counts as JSON and import nothing");
+        world->excludes(count);
+        c->add_flag("--quiet", import_options.quiet, "no progress bar");
+        commands.push_back({c, [&] { return run_import(import_options); }});
+    }
+    WorldOptions world_options;
+    auto add_world_command = [&](const char* name, const char* text, Result<> (*run)(const WorldOptions&)) {
+        auto* c = app.add_subcommand(name, text);
+        c->add_option("--world", world_options.world, "world folder")->required();
+        commands.push_back({c, [&world_options, run] { return run(world_options); }});
+        return c;
+    };
+    add_world_command("inspect", "Say what a world holds", run_inspect)
+        ->add_option("--blocks", world_options.blocks_file, "write counts by block state as JSON");
+    add_world_command("verify", "Check every record of a world", run_verify);
+    add_world_command("backup", "Make a consistent copy, also while the world is played", run_backup)
+        ->add_option("--target,-o", world_options.target, "folder for the copy")
+        ->required();
+
+    GenerateOptions generate;
+    {
+        auto* c = app.add_subcommand("generate", "Generate terrain");
+        c->add_option("--seed", generate.seed, "world seed");
+        c->add_option("--columns", generate.columns, "X0,Z0,X1,Z1 in chunk columns, inclusive");
+        c->add_option("--device", generate.device, "cpu or cuda");
+        c->add_option("--world", generate.world, "keep it in this world folder");
+        c->add_option("--stats", generate.stats_file, "write figures as JSON");
+        c->add_flag("--hash", generate.hash, "print a hash of all blocks");
+        c->add_flag("--list", generate.list, "list what the generator knows");
+        commands.push_back({c, [&] { return run_generate(generate); }});
+    }
+    RenderOptions render;
+    {
+        auto* c = app.add_subcommand("render", "Draw one picture");
+        c->add_option("--world", render.world, "world folder");
+        c->add_option("--seed", render.seed, "a new world of this seed, kept nowhere");
+        c->add_option("--dimension", render.dimension, "dimension name");
+        c->add_option("--at", render.at, "X,Y,Z of the eye");
+        c->add_option("--look", render.look, "YAW,PITCH in degrees");
+        c->add_option("--fov", render.fov_deg, "vertical field of view, degrees")->check(CLI::Range(5.0f, 150.0f));
+        c->add_option("--size", render.size, "WxH in pixels");
+        c->add_option("--time", render.time, "time of day, 6000 is noon")->check(CLI::Range(0.0f, 24000.0f));
+        c->add_option("--renderer", render.renderer, "raster or trace");
+        c->add_option("--spp", render.spp, "samples a pixel (trace)");
+        c->add_option("--device", render.device, "cpu or cuda (trace)");
+        c->add_option("--quality", render.quality, "low or high")->check(CLI::IsMember({"low", "high"}));
+        c->add_option("--view-distance", render.view_distance, "chunks")->check(CLI::Range(1, 32));
+        c->add_option("--output,-o", render.output, "PNG file")->required();
+        c->add_option("--stats", render.stats_file, "write figures as JSON");
+        c->add_flag("--demo", render.demo, "the demo picture");
+        commands.push_back({c, [&] { return run_render(render); }});
+    }
+    PlayOptions play;
+    {
+        auto* c = app.add_subcommand("play", "Walk in a world");
+        c->add_option("--world", play.world, "world folder (made where there is none)");
+        c->add_option("--seed", play.seed, "seed of a new world");
+        c->add_option("--connect", play.connect, "HOST:PORT of a server");
+        c->add_option("--renderer", play.renderer, "raster or trace");
+        c->add_option("--size", play.size, "WxH of the window");
+        c->add_option("--name", play.name, "player name");
+        c->add_option("--view-distance", play.view_distance, "chunks")->check(CLI::Range(1, 32));
+        commands.push_back({c, [&] { return run_play(play); }});
+    }
+    ServeOptions serve;
+    {
+        auto* c = app.add_subcommand("serve", "Run a server without a window");
+        c->add_option("--world", serve.world, "world folder")->required();
+        c->add_option("--port", serve.port, "UDP port");
+        commands.push_back({c, [&] { return run_serve(serve); }});
+    }
+    BenchOptions bench;
+    {
+        auto* c = app.add_subcommand("bench", "Measure the hot paths");
+        c->add_option("NAME", bench.names, "names or beginnings of names; all where none is given");
+        c->add_option("--json", bench.json_file, "write results as JSON");
+        c->add_option("--world", bench.world, "world folder for frame benchmarks");
+        c->add_option("--at", bench.at, "X,Y,Z of the eye");
+        c->add_option("--look", bench.look, "YAW,PITCH in degrees");
+        c->add_flag("--list", bench.list, "list the names");
+        commands.push_back({c, [&] { return run_bench(bench); }});
+    }
+    commands.push_back({app.add_subcommand("doctor", "Say what this machine offers"), [] { return run_doctor(); }});
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
+        std::fprintf(stderr, "vitrail: %s\n", first_line(error.what()).c_str());
+        return 2;
+    }
+    set_log_level(verbose ? LogLevel::debug : LogLevel::info);
+    for (const Command& command : commands) {
+        if (!command.app->parsed()) continue;
+        const Result<> result = command.run();
+        if (result) return 0;
+        std::fprintf(stderr, "vitrail: %s\n", first_line(result.error().message).c_str());
+        return 2;
+    }
+    return 2;
+}

@@ -1,0 +1,23 @@
+// `vitrail-server`: the same as `vitrail serve`, without graphics libraries.
+#include "apps/commands.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+int main(int argc, char** argv) {
+    CLI::App app("Vitrail server");
+    vitrail::apps::ServeOptions options;
+    app.add_option("--world", options.world, "world folder")->required();
+    app.add_option("--port", options.port, "UDP port");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::fprintf(stderr, "vitrail-server: %s\n", error.what());
+        return 2;
+    }
+    const auto result = vitrail::apps::run_serve(options);
+    if (result) return 0;
+    std::fprintf(stderr, "vitrail-server: %s\n", result.error().message.c_str());
+    return 2;
+}

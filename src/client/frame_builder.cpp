@@ -1,0 +1,44 @@
+#include "client/frame_builder.h"
+
+#include "scene/sky.h"
+
+#include <cmath>
+
+namespace vitrail::client {
+
+static constexpr float kDegree = 3.14159265358979f / 180.0f;
+
+WorldPos interpolate(WorldPos before, WorldPos after, float alpha) {
+    const Vec3 step = view_from(before, after).v;
+    if (dot(step, step) > 64.0f) return after;
+    return offset_by(before, step * alpha);
+}
+
+bool eye_in_liquid(const Dimension& dimension, WorldPos eye) {
+    const BlockPos at = block_of(eye);
+    const StateId state = dimension.state_at(at);
+    if (!(dimension.states().flags(state) & kLiquid)) return false;
+    const StateId above = dimension.state_at({at.x, at.y + 1, at.z});
+    if (dimension.states().flags(above) & kLiquid) return true;
+    const float height = float(liquid_height(dimension.states().info(state).liquid_level)) / float(kShapeUnit);
+    return view_from(corner_of(at), eye).v.y < height;
+}
+
+scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension, u32 width, u32 height, float time_of_day,
+                             u32 view_distance, float seconds) {
+    scene::FrameView frame;
+    frame.width = width;
+    frame.height = height;
+    frame.sky = scene::sky_at(time_of_day);
+    frame.view_distance = float(view_distance * kChunkSize);
+    frame.seconds = std::fmod(seconds, 65536.0f);
+    scene::View view;
+    view.eye = pose.eye;
+    view.rotation = view_rotation(pose.yaw_deg * kDegree, pose.pitch_deg * kDegree);
+    view.fov_y = pose.fov_deg * kDegree;
+    view.underwater = eye_in_liquid(dimension, pose.eye.at);
+    frame.views.push_back(view);
+    return frame;
+}
+
+} // namespace vitrail::client

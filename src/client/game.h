@@ -1,0 +1,90 @@
+// The game in a window: input -> replica -> sections -> frame -> interface -> present. The loop's state is plain data; the
+// functions that work on it stand in game_input.cpp, game_hud.cpp and game.cpp.
+#pragma once
+
+#include "client/local_game.h"
+#include "client/section_feeder.h"
+#include "client/settings.h"
+#include "client/ui.h"
+#include "platform/window.h"
+#include "render/ui_imgui.h"
+#include "rules/pick.h"
+
+#include <array>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+namespace vitrail::client {
+
+struct GameOptions {
+    LocalGameOptions local;
+    std::filesystem::path settings_file;     // empty: not kept
+    std::filesystem::path screenshot_folder; // F2
+    u32 width = 1280, height = 720;
+    i32 view_distance = 0;                   // 0: as the settings say
+};
+
+// Opens window and world, plays until the player quits, saves. Errors: no display, the server's.
+Result<> run_game(const GameOptions& options, std::shared_ptr<const BlockRegistry> registry);
+
+struct Hotbar {
+    std::vector<std::string> names; // block names, nine
+    std::vector<gfx::Texture> icons;
+    std::vector<std::string> icon_names; // what the icons show, to see what changed
+    u32 selected = 0;
+    float name_seconds = 0;
+};
+
+struct Notice {
+    std::string text;
+    float seconds = 8;
+};
+
+struct GameState {
+    GameOptions options;
+    Settings settings;
+    std::unique_ptr<platform::Window> window;
+    std::unique_ptr<render::Renderer> renderer;
+    std::unique_ptr<render::UiLayer> ui;
+    std::unique_ptr<LocalGame> game;
+    std::unique_ptr<ThreadPool> pool;
+    std::unique_ptr<SectionFeeder> feeder;
+
+    // Input.
+    std::set<platform::Key> held;
+    float yaw_deg = 0, pitch_deg = 0;
+    bool fly_wanted = false; // toggled in this frame
+    double last_space_seconds = -1;
+    bool break_held = false, place_held = false;
+    double next_break_seconds = 0, next_place_seconds = 0;
+    bool screenshot_wanted = false, pick_wanted = false;
+
+    // Interface.
+    bool paused = false, block_list_open = false, debug_text = false, hide_ui = false, quit = false;
+    std::string block_filter;
+    std::vector<std::string> block_names;
+    Hotbar hotbar;
+    std::deque<Notice> notices;
+
+    // What the eye is on.
+    std::optional<rules::PickHit> hit;
+    double seconds = 0; // since the start
+    float frame_ms = 0; // smoothed
+    u64 frames = 0;
+};
+
+// game_input.cpp
+void handle_events(GameState& state, const std::vector<platform::InputEvent>& events);
+void act_on_world(GameState& state); // break, place, pick as the held buttons say
+void set_paused(GameState& state, bool paused);
+rules::MoveInput move_input(GameState& state); // of the keys held now
+
+// game_hud.cpp
+void draw_interface(GameState& state);
+std::vector<std::string> debug_lines_left(const GameState& state);
+std::vector<std::string> debug_lines_right(const GameState& state);
+void say(GameState& state, std::string text);
+
+} // namespace vitrail::client

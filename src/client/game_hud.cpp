@@ -1,0 +1,140 @@
+#include "base/clock.h"
+#include "client/game.h"
+#include "gfx/context.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vitrail::client {
+
+void say(GameState& state, std::string text) {
+    state.notices.push_back({std::move(text)});
+    while (state.notices.size() > 8) state.notices.pop_front();
+}
+
+static const char* compass(float yaw_deg) {
+    static constexpr const char* names[] = {"south (+z)", "west (-x)", "north (-z)", "east (+x)"};
+    const float turned = std::fmod(std::fmod(yaw_deg + 45.0f, 360.0f) + 360.0f, 360.0f);
+    return names[int(turned / 90.0f) & 3];
+}
+
+std::vector<std::string> debug_lines_left(const GameState& state) {
+    auto& replica = state.game->replica();
+    const WorldPos at = replica.body().feet.at;
+    const BlockPos block = block_of(at);
+    const ChunkPos chunk = chunk_of(block);
+    auto fraction = [](i64 v) { return double(u32(v)) * 0x1p-32; };
+    const auto& frame = state.renderer->stats();
+    const FeederStats feeder = state.feeder->stats();
+    const Light light = replica.dimension().light_at({block.x, block.y, block.z});
+    const ChunkPtr here = replica.dimension().find(chunk);
+    return {
+        fmt::format("Vitrail  {:.0f} frames/s  {:.1f} ms", state.frame_ms > 0 ? 1000.0 / state.frame_ms : 0.0, state.frame_ms),
+        fmt::format("at {}.{:03} {}.{:03} {}.{:03}", block.x, int(fraction(at.x) * 1000), block.y, int(fraction(at.y) * 1000), block.z,
+                    int(fraction(at.z) * 1000)),
+        fmt::format("chunk {} {} {}  in {}", chunk.x, chunk.y, chunk.z, replica.dimension().info().name),
+        fmt::format("looks {}  yaw {:.1f} pitch {:.1f}", compass(state.yaw_deg), state.yaw_deg, state.pitch_deg),
+        fmt::format("light sky {}  r {} g {} b {}", light.sky(), light.red(), light.green(), light.blue()),
+        fmt::format("biome {}", here ? replica.biomes().name(here->biomes.at(local_of(block))) : "?"),
+        fmt::format("time {:.0f}", replica.time_of_day()),
+        "",
+        fmt::format("sections {} of {}  draws {}  quads {}", frame.sections_visible, frame.sections, frame.draws, frame.quads),
+        fmt::format("meshing {} waiting, {} at work, {} done", feeder.waiting, feeder.in_flight, feeder.meshed),
+    };
+}
+
+std::vector<std::string> debug_lines_right(const GameState& state) {
+    auto& replica = state.game->replica();
+    const auto server = state.game->server().stats();
+    const auto net = replica.stats();
+    std::vector<std::string> lines = {
+        fmt::format("memory {} MB", resident_memory_bytes() >> 20),
+        fmt::format("gpu {} MB", state.renderer->stats().gpu_bytes >> 20),
+        fmt::format("server tick {:.1f} ms, most {:.1f}", server.tick_ms, server.tick_ms_max),
+        fmt::format("{} columns, {} chunks, {} waiting", server.columns, server.chunks, server.columns_waiting),
+        fmt::format("{} sections, {} KB received", net.sections, net.bytes >> 10),
+        fmt::format("edits waiting {}  corrections {}", net.pending_edits, net.corrections),
+    };
+    if (const auto info = gfx::context_info()) lines.push_back(info->renderer);
+    if (state.hit) {
+        const auto& block = replica.states()->info(replica.dimension().state_at(state.hit->at)).state;
+        lines.emplace_back();
+        lines.push_back(fmt::format("{} {} {}", state.hit->at.x, state.hit->at.y, state.hit->at.z));
+        lines.push_back(block.name);
+        for (const auto& [key, value] : block.properties) lines.push_back(fmt::format("{} = {}", key, value));
+    }
+    return lines;
+}
+
+// Icons are drawn once for each block name that stands in the hotbar.
+static void update_icons(GameState& state) {
+    Hotbar& hotbar = state.hotbar;
+    if (hotbar.icon_names == hotbar.names) return;
+    hotbar.icons.clear();
+    for (const std::string& name : hotbar.names) {
+        gfx::Texture icon;
+        const auto id = state.game->replica().states()->intern_with_defaults(BlockState{name, {}});
+        if (id) {
+            state.feeder->models().ensure(*state.game->replica().states());
+            state.renderer->sync_models(state.feeder->models());
+            auto drawn = state.renderer->render_block_icon(*state.game->replica().states(), state.feeder->models(), *id, 96);
+            if (drawn) icon = std::move(*drawn);
+        }
+        hotbar.icons.push_back(std::move(icon));
+    }
+    hotbar.icon_names = hotbar.names;
+}
+
+static void apply_settings(GameState& state, const Settings& before) {
+    const Settings& now = state.settings = sane(state.settings);
+    if (now.view_distance != before.view_distance) state.game->replica().set_view_distance(u32(now.view_distance));
+    if (now.vsync != before.vsync) state.window->set_vsync(now.vsync);
+    if (now.fullscreen != before.fullscreen) state.window->set_fullscreen(now.fullscreen);
+    if (now.high_quality != before.high_quality)
+        state.renderer->set_quality(now.high_quality ? render::Quality::high : render::Quality::low);
+    if (now.ui_scale != before.ui_scale) apply_style(now.ui_scale);
+    if (state.options.settings_file.empty()) return;
+    if (const auto saved = save_settings(state.options.settings_file, now); !saved) say(state, saved.error().message);
+}
+
+void draw_interface(GameState& state) {
+    if (!state.hide_ui) {
+        update_icons(state);
+        draw_crosshair();
+        HotbarView view;
+        for (const auto& icon : state.hotbar.icons) view.icons.push_back(icon.name());
+        view.names = state.hotbar.names;
+        view.selected = state.hotbar.selected;
+        view.name_seconds = state.hotbar.name_seconds;
+        draw_hotbar(view, state.settings.ui_scale);
+        std::vector<std::string> lines;
+        for (const Notice& notice : state.notices) lines.push_back(notice.text);
+        draw_notices(lines);
+    }
+    if (state.debug_text) {
+        draw_debug_text(debug_lines_left(state), false);
+        draw_debug_text(debug_lines_right(state), true);
+    }
+    if (state.block_list_open) {
+        const int chosen = draw_block_list(state.block_names, state.block_filter, state.block_list_open);
+        if (chosen >= 0 && state.hotbar.selected < state.hotbar.names.size()) {
+            state.hotbar.names[state.hotbar.selected] = state.block_names[std::size_t(chosen)];
+            state.hotbar.name_seconds = 2;
+            state.game->replica().set_hotbar(state.hotbar.names, state.hotbar.selected);
+            state.block_list_open = false;
+        }
+        if (!state.block_list_open) {
+            state.window->start_text_input(false);
+            state.window->capture_mouse(!state.paused);
+        }
+    }
+    if (state.paused) {
+        const Settings before = state.settings;
+        const MenuAction action = draw_pause_menu(state.settings);
+        if (!(before == state.settings)) apply_settings(state, before);
+        if (action == MenuAction::resume) set_paused(state, false);
+        if (action == MenuAction::quit) state.quit = true;
+    }
+}
+
+} // namespace vitrail::client

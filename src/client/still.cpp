@@ -1,0 +1,102 @@
+#include "client/still.h"
+
+#include "base/clock.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <epoxy/gl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <thread>
+
+namespace vitrail::client {
+
+namespace fs = std::filesystem;
+
+static Result<std::string> make_scratch_folder() {
+    std::error_code error;
+    std::string pattern = (fs::temp_directory_path(error) / "vitrail-world-XXXXXX").string();
+    if (error || !mkdtemp(pattern.data())) return fail(ErrorCode::io, "no folder for a passing world: the temporary folder cannot be written");
+    return pattern;
+}
+
+Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, std::shared_ptr<const BlockRegistry> registry) {
+    const u64 start = now_ns();
+    std::unique_ptr<Still> still(new Still);
+    still->view_distance_ = options.view_distance;
+    VX_TRY_ASSIGN(still->context_, platform::HeadlessContext::create());
+    LocalGameOptions local;
+    if (options.world.empty()) {
+        VX_TRY_ASSIGN(still->scratch_folder_, make_scratch_folder());
+        local.server.folder = still->scratch_folder_;
+        local.server.seed = options.seed;
+    } else {
+        local.server.folder = options.world;
+        local.server.create = false;
+        local.server.read_only = true;
+    }
+    local.server.threads = default_worker_count();
+    local.server.view_distance_most = 32;
+    local.server.bytes_a_tick_most = 16u << 20; // nobody waits for a frame here
+    local.server.bytes_in_flight_most = 64u << 20;
+    local.server.start = server::StartPlace{options.dimension, options.pose.eye.at};
+    local.replica.name = "camera";
+    local.replica.view_distance = options.view_distance;
+    VX_TRY_ASSIGN(still->game_, LocalGame::open(local, registry));
+    VX_TRY(still->game_->wait_joined(60));
+    VX_TRY_ASSIGN(still->renderer_, render::Renderer::create({.quality = options.quality}));
+    VX_TRY(still->renderer_->load_textures(*registry));
+    still->pool_ = std::make_unique<ThreadPool>(default_worker_count());
+    still->feeder_ = std::make_unique<SectionFeeder>(*still->renderer_, *still->pool_);
+    still->times_.open_s = seconds_since(start);
+    VX_TRY(still->wait_complete(options));
+    return still;
+}
+
+Still::~Still() {
+    feeder_.reset();
+    if (game_ && !scratch_folder_.empty()) game_->server().abandon(); // nothing of it is kept
+    game_.reset();
+    renderer_.reset();
+    if (!scratch_folder_.empty()) {
+        std::error_code ignored;
+        fs::remove_all(scratch_folder_, ignored);
+    }
+}
+
+Result<> Still::wait_complete(const StillOptions& options) {
+    const u64 start = now_ns();
+    replica::Replica& replica = game_->replica();
+    const BlockPos eye = block_of(options.pose.eye.at);
+    bool all_here = false;
+    for (;;) {
+        // Asked before polling: what the server had sent by then is in the queue that we poll next.
+        const bool idle = game_->server().stats().idle;
+        if (!replica.poll()) return fail(ErrorCode::denied, fmt::format("the server ended the session: {}", replica.lost_reason()));
+        if (!all_here && idle) {
+            all_here = true;
+            times_.world_s = seconds_since(start);
+        }
+        if (all_here) feeder_->update(replica, eye, 1e9); // meshed once, with all neighbors here
+        if (all_here && feeder_->settled() && game_->server().stats().idle) break;
+        if (seconds_since(start) > options.seconds_most)
+            return fail(ErrorCode::limit, fmt::format("the world did not arrive within {} s", options.seconds_most));
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    times_.mesh_s = seconds_since(start) - times_.world_s;
+    return {};
+}
+
+Result<> Still::draw_only(const CameraPose& pose, u32 width, u32 height, float time) {
+    const scene::FrameView frame = build_frame(pose, game_->replica().dimension(), width, height, time, view_distance_, 40);
+    VX_TRY(renderer_->render(frame));
+    glFinish();
+    return {};
+}
+
+Result<render::Image> Still::draw(const CameraPose& pose, u32 width, u32 height, float time) {
+    VX_TRY(draw_only(pose, width, height, time));
+    return renderer_->read_pixels();
+}
+
+} // namespace vitrail::client

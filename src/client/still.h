@@ -1,0 +1,57 @@
+// One still picture of a world: server, replica, mesher and renderer as in the game, without a window. Used by
+// `vitrail render`, by the frame benchmarks and by tests.
+#pragma once
+
+#include "client/frame_builder.h"
+#include "client/local_game.h"
+#include "client/section_feeder.h"
+#include "platform/headless.h"
+
+#include <memory>
+#include <string>
+
+namespace vitrail::client {
+
+struct StillOptions {
+    std::string world;       // folder, opened read-only; empty: a world of `seed` that is kept nowhere
+    u64 seed = 1;
+    std::string dimension;   // name; empty: the world's spawn dimension
+    CameraPose pose;
+    u32 view_distance = 12;  // chunks
+    render::Quality quality = render::Quality::high;
+    double seconds_most = 600; // for the world to arrive
+};
+
+struct StillTimes {
+    double open_s = 0, world_s = 0, mesh_s = 0; // until joined; until all sections are here; until all are drawn
+};
+
+class Still {
+public:
+    // Opens the world and waits until everything the eye could see is meshed and on the GPU. Errors: no OpenGL, the world's, limit.
+    static Result<std::unique_ptr<Still>> open(const StillOptions& options, std::shared_ptr<const BlockRegistry> registry);
+    ~Still();
+    // time: 0..24000. The pose may turn and move within the view distance.
+    Result<render::Image> draw(const CameraPose& pose, u32 width, u32 height, float time);
+    // Without reading pixels back; finishes drawing. For timing.
+    Result<> draw_only(const CameraPose& pose, u32 width, u32 height, float time);
+
+    render::Renderer& renderer() { return *renderer_; }
+    replica::Replica& replica() { return game_->replica(); }
+    server::Server& server() { return game_->server(); }
+    const StillTimes& times() const { return times_; }
+
+private:
+    Still() = default;
+    Result<> wait_complete(const StillOptions& options);
+    std::unique_ptr<platform::HeadlessContext> context_;
+    std::string scratch_folder_; // of a world kept nowhere, removed at the end
+    std::unique_ptr<LocalGame> game_;
+    std::unique_ptr<ThreadPool> pool_;
+    std::unique_ptr<render::Renderer> renderer_;
+    std::unique_ptr<SectionFeeder> feeder_;
+    u32 view_distance_ = 12;
+    StillTimes times_;
+};
+
+} // namespace vitrail::client

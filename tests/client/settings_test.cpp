@@ -1,0 +1,52 @@
+#include "client/settings.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+using namespace vitrail::client;
+namespace fs = std::filesystem;
+
+static fs::path scratch(const char* name) {
+    const fs::path folder = fs::temp_directory_path() / ("vitrail_settings_" + std::string(name));
+    fs::remove_all(folder);
+    return folder / "settings.toml";
+}
+
+TEST(Settings, SurviveARoundTrip) {
+    const fs::path path = scratch("round");
+    Settings s;
+    s.view_distance = 7;
+    s.fov_deg = 91.5f;
+    s.mouse_sensitivity = 2; // a whole number must stay a float
+    s.invert_y = true;
+    s.fullscreen = true;
+    ASSERT_TRUE(save_settings(path, s));
+    const auto back = load_settings(path);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(*back == s);
+}
+
+TEST(Settings, NoFileMeansDefaults) { EXPECT_TRUE(*load_settings(scratch("none")) == Settings{}); }
+
+TEST(Settings, OddValuesAreHeldInRangeAndOddKeysLeftAlone) {
+    const fs::path path = scratch("odd");
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << "view_distance = 9000\nfov_deg = nan\nmouse_sensitivity = \"fast\"\nunknown = [1]\n";
+    const auto s = load_settings(path);
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->view_distance, 32);
+    EXPECT_EQ(s->fov_deg, Settings{}.fov_deg);
+    EXPECT_EQ(s->mouse_sensitivity, 1);
+}
+
+TEST(Settings, ABrokenFileIsNamed) {
+    const fs::path path = scratch("broken");
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << "view_distance = = 3\n";
+    const auto s = load_settings(path);
+    ASSERT_FALSE(s);
+    EXPECT_NE(s.error().message.find("settings.toml:1"), std::string::npos);
+}
+
+TEST(Settings, AnUnwritablePlaceIsAnError) { EXPECT_FALSE(save_settings("/proc/vitrail/settings.toml", Settings{})); }
