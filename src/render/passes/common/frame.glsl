@@ -1,0 +1,23 @@
+// What every pass knows of the frame; FrameUniforms in render/frame_uniforms.h writes it.
+struct ViewData {
+    mat4 view_proj;   // camera-relative world to clip space, reversed depth
+    vec4 fraction;    // xyz: the eye inside its block; w: near plane, blocks
+    vec4 clip_plane;  // camera-relative
+    vec4 ray_right;   // xyz: with ray_up and ray_forward the ray of a point of the screen, forward part 1;
+    vec4 ray_up;      // w of ray_right: blocks a pixel at distance 1; of ray_up: 1 where the eye is under water
+    vec4 ray_forward;
+};
+layout(std140, binding = 0) uniform Frame {
+    ViewData views[8];
+    vec4 sun_direction;   // w: amount of stars
+    vec4 moon_direction;
+    vec4 light_direction; // of the direct light: sun or moon
+    vec4 sun_light;
+    vec4 ambient;
+    vec4 zenith;
+    vec4 horizon;
+    vec4 glow;
+    vec4 screen;          // width, height, 1 / width, 1 / height
+    vec4 misc;            // seconds, 1 / view distance, exposure, star and cloud turn (radians)
+    vec4 background;      // w: 1 where it replaces the sky (tests)
+};

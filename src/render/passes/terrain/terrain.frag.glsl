@@ -1,0 +1,45 @@
+// Fills the G-buffer. Colors stay sRGB-encoded here: textures, tints and their product are what artists see; lighting
+// decodes them once a pixel. CUTOUT: holes. HIGH: normal, roughness and emission maps.
+#include "common/frame.glsl"
+#include "common/normal.glsl"
+
+layout(location = 0) in vec3 v_uv_ao;
+layout(location = 1) in vec3 v_light_at;
+layout(location = 2) in vec3 v_tint;
+layout(location = 3) flat in uvec2 v_surface;
+#ifdef HIGH
+layout(location = 4) in vec3 v_position;
+#endif
+layout(binding = 0) uniform sampler2DArray t_albedo;
+layout(binding = 1) uniform sampler3D t_light;
+layout(binding = 2) uniform sampler2DArray t_material; // normal x, normal y, roughness, emission
+
+layout(location = 0) out vec4 o_albedo;  // sRGB-encoded albedo, ambient occlusion
+layout(location = 1) out vec4 o_light;   // block light r g b, sky light, each level / 15
+layout(location = 2) out uvec4 o_surface; // normal (octahedral), view number, roughness << 4 | emission
+
+void main() {
+    vec3 at = vec3(v_uv_ao.xy, float(v_surface.x));
+    vec4 albedo = texture(t_albedo, at);
+#ifdef CUTOUT
+    if (albedo.a < 0.5) discard;
+#endif
+    o_albedo = vec4(albedo.rgb * v_tint, v_uv_ao.z);
+    o_light = texture(t_light, v_light_at).bgra;
+    uvec4 surface = uvec4(v_surface.y & 255u, v_surface.y >> 8 & 255u, v_surface.y >> 16 & 255u, 0u);
+    vec4 material = texture(t_material, at);
+#ifdef HIGH
+    vec2 slope = material.rg * 2.0 - 1.00392157;
+    vec3 n = normal_from_bytes(surface.xy);
+    // The texture's axes in the world from screen derivatives, so that any model may turn its texture.
+    vec3 px = dFdx(v_position), py = dFdy(v_position);
+    vec2 ux = dFdx(v_uv_ao.xy), uy = dFdy(v_uv_ao.xy);
+    vec3 a = cross(py, n), b = cross(n, px);
+    vec3 tangent = a * ux.x + b * uy.x, bitangent = a * ux.y + b * uy.y;
+    float size = max(max(dot(tangent, tangent), dot(bitangent, bitangent)), 1e-24);
+    n = normalize(n + (tangent * slope.x + bitangent * slope.y) * inversesqrt(size));
+    surface.xy = normal_bytes(n);
+#endif
+    surface.w = uint(material.b * 15.0 + 0.5) << 4 | uint(material.a * 15.0 + 0.5);
+    o_surface = surface;
+}

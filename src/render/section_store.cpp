@@ -1,0 +1,134 @@
+#include "render/section_store.h"
+
+#include "base/assert.h"
+
+#include <algorithm>
+#include <epoxy/gl.h>
+
+namespace vitrail::render {
+
+SectionStore::SectionStore(u64 quad_bytes_start) {
+    const u32 quads = u32(std::clamp<u64>(quad_bytes_start / sizeof(Quad), 1024, 1u << 28));
+    quads_ = gfx::make_buffer(u64(quads) * sizeof(Quad), GL_DYNAMIC_STORAGE_BIT);
+    ranges_.grow(quads);
+}
+
+Section* SectionStore::find(SectionKey key) {
+    const auto at = sections_.find(key);
+    return at == sections_.end() ? nullptr : at->second.get();
+}
+
+Section& SectionStore::obtain(SectionKey key) {
+    std::unique_ptr<Section>& at = sections_[key];
+    if (!at) {
+        at = std::make_unique<Section>();
+        at->at = key.at;
+        at->dimension = key.dimension;
+        at->index = u32(all_.size());
+        all_.push_back(at.get());
+        ++revision_;
+    }
+    return *at;
+}
+
+void SectionStore::release_quads(Section& section) {
+    if (section.quad_count) ranges_.free(section.first_quad, section.quad_count);
+    section.first_quad = section.quad_count = 0;
+}
+
+void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
+    VX_ASSERT(mesh.first.back() == mesh.quads.size());
+    Section& section = obtain(key);
+    release_quads(section);
+    if (section.connections != mesh.connections) ++revision_;
+    section.connections = mesh.connections;
+    section.first = mesh.first;
+    const u32 translucent_first = mesh.first[SectionMesh::group(QuadPass::translucent, 0)];
+    section.translucent.assign(mesh.quads.begin() + translucent_first, mesh.quads.end());
+    section.translucent.shrink_to_fit();
+    section.sorted_from = {-128, 0, 0};
+    if (mesh.quads.empty()) return;
+    const u32 count = u32(mesh.quads.size());
+    std::optional<u32> offset = ranges_.allocate(count);
+    if (!offset) {
+        const u32 old = ranges_.capacity();
+        ranges_.grow(std::max(old * 2, old + count));
+        gfx::Buffer bigger = gfx::make_buffer(u64(ranges_.capacity()) * sizeof(Quad), GL_DYNAMIC_STORAGE_BIT);
+        glCopyNamedBufferSubData(quads_.name(), bigger.name(), 0, 0, GLsizeiptr(u64(old) * sizeof(Quad)));
+        quads_ = std::move(bigger);
+        offset = ranges_.allocate(count);
+        VX_ASSERT(offset.has_value());
+    }
+    section.first_quad = *offset, section.quad_count = count;
+    glNamedBufferSubData(quads_.name(), GLintptr(u64(*offset) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)),
+                         mesh.quads.data());
+}
+
+void SectionStore::set_light(SectionKey key, const LightBrick& brick) {
+    Section& section = obtain(key);
+    section.light_slot = light_.set(section.light_slot, brick);
+}
+
+void SectionStore::set_tints(SectionKey key, const TintGrid& tints) {
+    Section& section = obtain(key);
+    const u32 slot = tints_.add(tints);
+    tints_.free(section.tint_slot);
+    section.tint_slot = slot;
+}
+
+void SectionStore::remove(SectionKey key) {
+    const auto at = sections_.find(key);
+    if (at == sections_.end()) return;
+    Section& section = *at->second;
+    release_quads(section);
+    light_.free(section.light_slot);
+    tints_.free(section.tint_slot);
+    all_[section.index] = all_.back();
+    all_[section.index]->index = section.index;
+    all_.pop_back();
+    sections_.erase(at);
+    ++revision_;
+}
+
+void SectionStore::clear() {
+    while (!all_.empty()) remove({all_.back()->at, all_.back()->dimension});
+}
+
+u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
+    if (section.sorted_from == from) return 0;
+    section.sorted_from = from;
+    const u32 count = u32(section.translucent.size());
+    if (count < 2) return 0;
+    // Doubled coordinates: centers of merged quads lie on half cells.
+    const i32 eye[3] = {from[0] * 2 + 1, from[1] * 2 + 1, from[2] * 2 + 1};
+    std::vector<std::pair<u32, u32>> order(count);
+    for (u32 i = 0; i < count; ++i) {
+        const Quad q = section.translucent[i];
+        i32 c[3] = {i32(q.x()) * 2 + 1, i32(q.y()) * 2 + 1, i32(q.z()) * 2 + 1};
+        if (!q.is_model()) {
+            const u32 axis = u32(q.face()) >> 1, u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
+            c[u] += i32(q.w()) - 1, c[v] += i32(q.h()) - 1;
+            c[axis] += u32(q.face()) & 1 ? 1 : -1;
+        }
+        u32 distance2 = 0;
+        for (int k = 0; k < 3; ++k) distance2 += u32((c[k] - eye[k]) * (c[k] - eye[k]));
+        order[i] = {~distance2, i}; // far first; equal ones keep the mesher's order
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Quad> sorted(count);
+    for (u32 i = 0; i < count; ++i) sorted[i] = section.translucent[order[i].second];
+    const u32 at = section.first_quad + section.first[SectionMesh::group(QuadPass::translucent, 0)];
+    glNamedBufferSubData(quads_.name(), GLintptr(u64(at) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)), sorted.data());
+    section.translucent = std::move(sorted);
+    return count;
+}
+
+u64 SectionStore::gpu_bytes() const { return quads_.bytes + light_.texture().bytes() + tints_.gpu_bytes(); }
+
+u64 SectionStore::cpu_bytes() const {
+    u64 sum = all_.size() * (sizeof(Section) + 64) + all_.capacity() * sizeof(Section*);
+    for (const Section* s : all_) sum += s->translucent.capacity() * sizeof(Quad);
+    return sum;
+}
+
+} // namespace vitrail::render

@@ -1,0 +1,76 @@
+// The sections that can be drawn: their quads in one buffer, light and tints by slot, and what culling needs to know.
+#pragma once
+
+#include "gfx/range_allocator.h"
+#include "render/light_atlas.h"
+#include "render/meshing/quad.h"
+#include "render/tint_table.h"
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace vitrail::render {
+
+struct SectionKey {
+    ChunkPos at;
+    DimensionId dimension{};
+    friend bool operator==(const SectionKey&, const SectionKey&) = default;
+};
+struct HashSectionKey {
+    std::size_t operator()(const SectionKey& k) const { return hash_combine(std::hash<ChunkPos>()(k.at), u64(k.dimension)); }
+};
+
+struct Section {
+    ChunkPos at;
+    DimensionId dimension{};
+    u32 first_quad = 0, quad_count = 0;                // in the quad buffer
+    std::array<u32, SectionMesh::kGroups + 1> first{}; // as SectionMesh::first
+    u64 connections = 0;
+    u32 light_slot = 0, tint_slot = 0;
+    u32 index = 0;            // in SectionStore::all()
+    u64 reached = 0;          // stamp of the last walk that found it (culling.h)
+    std::vector<Quad> translucent; // copy for sorting
+    std::array<i8, 3> sorted_from{-128, 0, 0}; // the eye's cell when last sorted
+    u32 group_size(QuadPass pass) const {
+        return first[SectionMesh::group(pass, 0) + SectionMesh::kDirections] - first[SectionMesh::group(pass, 0)];
+    }
+};
+
+class SectionStore {
+public:
+    explicit SectionStore(u64 quad_bytes_start);
+    void set(SectionKey key, const SectionMesh& mesh);
+    void set_light(SectionKey key, const LightBrick& brick);
+    void set_tints(SectionKey key, const TintGrid& tints);
+    void remove(SectionKey key);
+    void clear();
+    Section* find(SectionKey key);
+    const std::vector<Section*>& all() const { return all_; }
+    u64 revision() const { return revision_; } // grows where culling may change
+
+    // Sorts the translucent quads of a section back to front as seen from a cell -1..16 on each axis of it, where it has
+    // not been sorted from there; the number of quads moved.
+    u32 sort_translucent(Section& section, std::array<i8, 3> from);
+
+    u32 quad_buffer() const { return quads_.name(); }
+    u32 quad_buffer_quads() const { return ranges_.capacity(); }
+    u64 quads_held() const { return ranges_.used(); }
+    const LightAtlas& light() const { return light_; }
+    const TintTable& tints() const { return tints_; }
+    u64 gpu_bytes() const;
+    u64 cpu_bytes() const;
+
+private:
+    Section& obtain(SectionKey key);
+    void release_quads(Section& section);
+    std::unordered_map<SectionKey, std::unique_ptr<Section>, HashSectionKey> sections_;
+    std::vector<Section*> all_;
+    gfx::Buffer quads_;
+    gfx::RangeAllocator ranges_;
+    LightAtlas light_;
+    TintTable tints_;
+    u64 revision_ = 1;
+};
+
+} // namespace vitrail::render
