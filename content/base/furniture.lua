@@ -106,6 +106,7 @@ for _, head in ipairs { "skeleton_skull", "wither_skeleton_skull", "zombie_head"
   local part = string.match(head, "_([^_]+)$")
   local t = { head .. "_front", head .. "_side", head .. "_side", head .. "_side" }
   block(head, merge(DECOR, { shape = "boxes", texture = t, hardness = 1, boxes = { { 4, 0, 4, 12, 8, 12 } } }), "powered? rotation:0-15")
-  local on_wall = { { 4, 4, 8, 12, 12, 16 } }
-  block(kind .. "_wall_" .. part, merge(DECOR, { shape = "boxes", texture = t, hardness = 1, boxes = on_wall, variants = turned(on_wall) }), "facing powered?")
+  local on_wall, w = { { 4, 4, 8, 12, 12, 16 } }, head .. "_wall"
+  local hung = { w .. "_front", w .. "_side", w .. "_side", w .. "_side" }
+  block(kind .. "_wall_" .. part, merge(DECOR, { shape = "boxes", texture = hung, hardness = 1, boxes = on_wall, variants = turned(on_wall) }), "facing powered?")
 end

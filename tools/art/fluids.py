@@ -20,16 +20,16 @@ def water(name, flow=False):
         a = 2 * np.pi * k / FRAMES
         t = Tex(name, .06)
         moved = pts + np.stack([np.cos(a + ph) * rad, np.sin(a + ph) * rad], 1)
-        wx, wy = X + 1.6 * drift[k], Y - 1.6 * drift[(k + 4) % FRAMES]
+        wx, wy = X + 2.8 * drift[k], Y - 2.8 * drift[(k + 4) % FRAMES]
         if flow:
             wx, wy = wx * 1.0, (wy - 32 * k / FRAMES)
             c = Cells(pts % N, sx=1., sy=.55, x=wx, y=wy)
         else:
             c = Cells(moved % N, x=wx, y=wy)
         e = c.edge
-        line = np.exp(-(e / .8) ** 2)
+        line = np.exp(-(e / .9) ** 2) * np.clip(.55 + .75 * drift[(k + 7) % FRAMES], 0, 1)
         soft = ss(5.5, 0, e)
-        t.fill(np.clip(.20 + .34 * soft + .42 * line, 0, .999), pal, 1)
+        t.fill(np.clip(.22 + .40 * soft + .34 * line, 0, .999), pal, 1)
         t.h = 1.1 * soft + .5 * line
         t.a = np.round(np.clip(.66 + .12 * line + .05 * soft, 0, 1) * 32) / 32
         frames.append(t)
@@ -68,7 +68,7 @@ def lava(name, flow=False):
 def fire(name, colors):
     pal = blend(*colors, n=9)
     r = rng("fire")
-    tongues = [(x, r.uniform(.55, 1.), r.uniform(0, 6.28), int(r.integers(1, 3))) for x in np.linspace(2, 30, 8)]
+    tongues = [(x, r.uniform(.5, 1.), r.uniform(0, 6.28), int(r.integers(1, 3))) for x in np.linspace(3, 29, 7)]
     frames = []
     for k in range(FRAMES):
         a = 2 * np.pi * k / FRAMES
@@ -77,13 +77,13 @@ def fire(name, colors):
         hot = np.zeros((N, N))
         rise = value("fire/rise", 6, 4, X, Y + 32 * k / FRAMES)
         for x, s, ph, n in tongues:
-            tall = 25 * s * (.78 + .22 * np.sin(n * a + ph))
+            tall = 31 * s * (.78 + .22 * np.sin(n * a + ph))
             sway = 2.2 * np.sin(n * a + ph + up * .22) * up / 20
             u = up / tall
             w = 4.4 * np.clip(1 - u, 0, 1) ** .7 * (.7 + .5 * np.clip(up / 6, 0, 1))
             d = np.abs(X + .5 - x - sway)
             hot = np.maximum(hot, np.where(u < 1, (1 - d / np.maximum(w, .1)) * (1.15 - .75 * u), 0))
-        hot = hot + .22 * rise * (up > 3)
+        hot = np.where(hot > .04, hot + .22 * rise * (up > 3), hot)
         m = hot > .16
         t.shade(m, pal, np.clip(hot * .95, 0, .999))
         t.glow(m, 1.)

@@ -1,4 +1,5 @@
-"""Heads. A head is half a block wide, so its face is painted twice as fine in the part a box shows, and repeats around it."""
+"""Heads. A head is half a block wide and a box shows the part of the tile it covers: low in the tile for a head on the ground,
+half way up for one on a wall."""
 import numpy as np
 
 from color import lift, ramp, rgb
@@ -10,12 +11,16 @@ HEADS = {"skeleton_skull": ("#c8c8c4", "#26262a", "bone"), "wither_skeleton_skul
          "piglin_head": ("#e0a070", "#2a1a16", "flesh")}
 
 
-def head(name, base, dark, kind, front):
+def head(name, base, dark, kind, front, on_wall=False):
+    if on_wall:
+        t = head(name.replace("_wall", ""), base, dark, kind, front)
+        t.rgb, t.h = np.roll(t.rgb, -8, 0), np.roll(t.h, -8, 0)
+        t.e = None if t.e is None else np.roll(t.e, -8, 0)
+        return t
     t = Tex(name, .85)
     g = value(name.rsplit("_", 1)[0], 16, 16) if kind == "creep" else fbm(name.rsplit("_", 1)[0], 8, 8, 2)
     t.fill(np.clip(.56 + .25 * g, 0, .99), ramp(base, .14, .12, 7), 0 if kind == "creep" else 1)
     if front:
-        # Boxes cut their part out of the tile by position; a face each half tile shows one wherever the box stands.
         x, y = (X + 8) % 16, Y % 16
         cx = np.abs(x - 7.5)
         if kind == "creep":
@@ -36,5 +41,6 @@ def head(name, base, dark, kind, front):
 
 
 for _n, (_b, _d, _k) in HEADS.items():
-    add(_n + "_front", head, _b, _d, _k, True)
-    add(_n + "_side", head, _b, _d, _k, False)
+    for _w in ("", "_wall"):
+        add(f"{_n}{_w}_front", head, _b, _d, _k, True, _w != "")
+        add(f"{_n}{_w}_side", head, _b, _d, _k, False, _w != "")

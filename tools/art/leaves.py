@@ -27,6 +27,7 @@ def leaves(name, pal, kind="oval", count=(34, 40, 26), size=3.3, thin=.52, sprea
     """Three layers from dark and deep to light and near; each leaf has a midrib, a lit and a shaded half."""
     t = Tex(name, rough)
     t.a[:] = 0
+    t.bump = .45
     r = rng(name)
     n = len(pal)
     if fill:
@@ -41,20 +42,37 @@ def leaves(name, pal, kind="oval", count=(34, 40, 26), size=3.3, thin=.52, sprea
             angle = r.uniform(0, 2 * np.pi) if hang is None else hang + r.normal(0, spread)
             length = size * r.uniform(.8, 1.15)
             m, u, v = leaf_shape(dx, dy, angle, length, max(length * thin, .75), kind)
-            tone = .16 + .24 * layer + r.uniform(-.09, .09)
+            tone = .20 + .21 * layer + r.uniform(-.08, .08)
             lit = np.where(v * np.cos(angle) - u * np.sin(angle) * .3 < 0, .13, -.05)
             f = tone + lit - .012 * (dx + dy) + (.1 * (abs(v) < .22) if size > 2.6 else 0)
             edge = m & ~roll(m, -1, -1)
             # A dark seam below each leaf keeps the leaves apart when seen from far away.
             seam = roll(m, 1, 1) & ~m & (t.a > 0)
-            t.rgb[seam] = pal[0]
+            t.rgb[seam] = pal[max(0, layer - 1)]
             t.shade(m, pal, np.clip(f, 0, .999))
             t.shade(edge, pal, np.clip(f - .16, 0, .999))
             t.h[m] = 1.2 * layer + (1 - v[m] ** 2) * .8
+    close_pinholes(t, pal)
     if bloom:
         colors, number, radius = bloom
         flowers(t, name, colors, number, radius)
     return t
+
+
+def close_pinholes(t, pal, least=4):
+    """Gaps of a pixel or two only flicker in the distance: they become shadow; the larger ones stay open."""
+    clear = t.a == 0
+    label = np.where(clear, np.arange(N * N).reshape(N, N), -1)
+    for _ in range(40):
+        best = label
+        for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            best = np.maximum(best, np.where(clear, roll(label, dx, dy), -1))
+        if (best == label).all():
+            break
+        label = best
+    sizes = np.bincount(label[clear], minlength=N * N) if clear.any() else np.zeros(N * N, int)
+    small = clear & (sizes[np.maximum(label, 0)] < least)
+    t.put(small, pal[0])
 
 
 def flowers(t, name, color, number, radius):
@@ -72,8 +90,8 @@ def flowers(t, name, color, number, radius):
 
 GREENS = {
     "spruce_leaves": (blend("#12261e", "#234434", "#356049", "#4f7d58", "#74986a", n=8), dict(kind="needle", size=3.6, thin=.2, count=(70, 70, 50), hang=1.1, spread=.7)),
-    "birch_leaves": (blend("#2e4a1e", "#4f7430", "#74993f", "#9dbb58", "#c9d882", n=8), dict(size=2.8, thin=.62, count=(44, 50, 36))),
-    "cherry_leaves": (blend("#a2507c", "#cf7ba2", "#e8a0bd", "#f6c1d3", "#fde4ea", n=8), dict(kind="lobed", size=3.0, thin=1.0, count=(30, 36, 26))),
+    "birch_leaves": (blend("#3d5f28", "#587e35", "#759843", "#93b152", "#b9cc72", n=8), dict(size=2.8, thin=.62, count=(44, 50, 36))),
+    "cherry_leaves": (blend("#c0709a", "#d88bb0", "#eaa6c4", "#f5c0d4", "#fcdde6", n=8), dict(kind="lobed", size=3.0, thin=1.0, count=(30, 36, 26))),
     "pale_oak_leaves": (blend("#4a5048", "#636b60", "#7e877a", "#9aa394", "#bcc3b4", n=8), {}),
     "azalea_leaves": (blend("#26401a", "#41632a", "#5d8438", "#82a64a", "#aecb6c", n=8), dict(size=2.9, thin=.7)),
     "flowering_azalea_leaves": (blend("#26401a", "#41632a", "#5d8438", "#82a64a", "#aecb6c", n=8), dict(size=2.9, thin=.7, bloom=("#d863b8", 12, 2.4))),
@@ -82,8 +100,8 @@ GREENS = {
     "palm_leaves": (blend("#1c3d1c", "#2f6327", "#4b8a33", "#76ad45", "#b0cf66", n=8), dict(kind="needle", size=6.5, thin=.13, count=(40, 44, 26), hang=.7, spread=.5)),
     "pine_leaves": (blend("#142a20", "#254a31", "#3a6a3d", "#5a8b4b", "#86ab60", n=8), dict(kind="needle", size=4.2, thin=.18, count=(64, 64, 40))),
     "shrub_leaves": (blend("#2a3a1a", "#465c28", "#677f38", "#8fa24c", "#bdc672", n=8), dict(kind="round", size=2.0, thin=.8, count=(64, 64, 49))),
-    "yellow_birch_leaves": (blend("#6e4a10", "#a3741b", "#d29d2a", "#ecc246", "#f9e486", n=8), dict(size=2.8, thin=.62, count=(44, 50, 36))),
-    "orange_birch_leaves": (blend("#6b2510", "#9f3f17", "#d16324", "#ec8b3a", "#fbbf6a", n=8), dict(size=2.8, thin=.62, count=(44, 50, 36))),
+    "yellow_birch_leaves": (blend("#8c6416", "#b3841f", "#d3a02c", "#e8bd44", "#f5d970", n=8), dict(size=2.8, thin=.62, count=(44, 50, 36))),
+    "orange_birch_leaves": (blend("#8a3414", "#b04c1c", "#d26a28", "#e88a3a", "#f6b060", n=8), dict(size=2.8, thin=.62, count=(44, 50, 36))),
     "rafflesia_leaves": (blend("#143022", "#1f4e33", "#357244", "#5b9757", "#95bd78", n=8), dict(size=4.6, thin=.55, count=(20, 22, 14))),
 }
 for _n, (_pal, _kw) in GREENS.items():

@@ -196,6 +196,6 @@ add("dark_prismarine", bricks, "#335b4d", TILE_ROWS, mortar="#22403a", rough=.45
 add("resin_bricks", bricks, "#d9651c", BRICK_ROWS, mortar="#96400f", rough=.4)
 add("chiseled_resin_bricks", framed, "#d9651c", "diamond", rough=.4)
 add("resin_block", smooth_block, "#dd6c1e", rough=.35, dark=.14, light=.12, grain=.2)
-for _red, _c in (("", "#dccc9a"), ("red_", "#ba6a2e")):
+for _red, _c in (("", "#dccc9a"), ("red_", "#b6673c")):
     add(f"cut_{_red}sandstone", cut_block, _c)
     add(f"chiseled_{_red}sandstone", framed, _c, "face" if not _red else "diamond", .18, .08)

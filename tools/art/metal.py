@@ -47,7 +47,7 @@ def raw(name, color, spot):
     return t
 
 
-COPPER = {"": ("#c06b4c", None, 0., .32), "exposed_": ("#a67a63", "#8d9a7c", -.16, .5), "weathered_": ("#6c9a72", "#97785c", -.14, .7), "oxidized_": ("#50a084", "#7fc0a4", -.12, .8)}
+COPPER = {"": ("#c06b4c", None, 0., .32), "exposed_": ("#a67a63", "#8d9a7c", -.34, .5), "weathered_": ("#6c9a72", "#8f7a60", -.36, .7), "oxidized_": ("#50a084", "#78b89c", -.30, .8)}
 
 
 def patina_over(t, stage):

@@ -9,7 +9,7 @@ from tex import Tex, add
 
 ORES = {"coal": ("#33343c", "lump"), "iron": ("#d8ac8c", "lump"), "copper": ("#d0704a", "lump"), "gold": ("#f6cf48", "lump"),
         "redstone": ("#d3211a", "grain"), "emerald": ("#2fd070", "gem"), "lapis": ("#2f5fc8", "grain"), "diamond": ("#6ae6e2", "gem")}
-SPOTS = [(7, 7, 1.0), (22, 5, .75), (27, 16, .9), (15, 17, 1.05), (5, 24, .85), (21, 27, 1.0), (31, 29, .6)]
+SPOTS = [(8, 7, 1.), (23, 6, .8), (27, 19, .95), (14, 18, 1.1), (5, 26, .7), (20, 28, .9)]
 
 
 def gem(t, x, y, r, pal, kind, turn, glow=0.):
@@ -17,7 +17,8 @@ def gem(t, x, y, r, pal, kind, turn, glow=0.):
     c, s = np.cos(turn), np.sin(turn)
     u, v = dx * c - dy * s, dx * s + dy * c
     if kind == "gem":
-        d = np.maximum(np.abs(u) * .9 + np.abs(v) * .55, np.abs(v) * 1.0)
+        # A cut stone: a hexagon standing on its point.
+        d = np.maximum(np.abs(u) * 1.12, np.abs(u) * .56 + np.abs(v) * .80)
     elif kind == "lump":
         d = (np.abs(u) ** 1.5 + np.abs(v * 1.15) ** 1.5) ** (1 / 1.5) + .35 * value(f"lump{turn:.2f}", 8, 8)
     else:
@@ -26,9 +27,15 @@ def gem(t, x, y, r, pal, kind, turn, glow=0.):
     rim = (d < r + 1.1) & ~m
     t.rgb[rim & (dx + dy > 0)] *= 1.10
     t.rgb[rim & (dx + dy <= 0)] *= .62
-    sector = np.floor((np.arctan2(dy, dx) + np.pi) / (2 * np.pi) * (6 if kind == "gem" else 5) + turn) % 6
-    face = np.array([.10, -.08, .16, -.16, .02, -.02])[sector.astype(int)] if kind != "grain" else 0
-    f = .5 - .30 * (dx + dy) / (2 * r) + face + .12 * (d < r * .45)
+    if kind == "gem":
+        # Six facets, each of one tone, about a table that shines.
+        sector = np.floor(((np.arctan2(v, u) + np.pi) / (2 * np.pi) * 6 + .5) % 6).astype(int)
+        f = np.array([.56, .74, .62, .34, .14, .28])[sector]
+        f = np.where(d < r * .5, .70, f)
+    else:
+        sector = np.floor((np.arctan2(dy, dx) + np.pi) / (2 * np.pi) * 5 + turn).astype(int) % 6
+        face = np.array([.10, -.08, .16, -.16, .02, -.02])[sector] if kind == "lump" else 0
+        f = .5 - .30 * (dx + dy) / (2 * r) + face + .12 * (d < r * .45)
     t.shade(m, pal, np.clip(f, 0, .999), r=.25 if kind == "gem" else .45)
     t.put(m & (np.hypot(dx + r * .35, dy + r * .35) < .75), pal[-1])
     t.h[m] = t.h.mean() + 2.4 * (1 - np.clip(d[m] / r, 0, 1)) ** .6
@@ -44,9 +51,9 @@ def ore(name, of, color, kind, glow=0.):
     for x, y, s in SPOTS:
         x, y = x + r.uniform(-1.5, 1.5), y + r.uniform(-1.5, 1.5)
         if kind == "gem":
-            gem(t, x, y, 4.0 * s, pal, kind, r.uniform(-.6, .6), glow)
+            gem(t, x, y, 3.9 * s, pal, kind, r.uniform(-.35, .35), glow)
             if s > .9:
-                gem(t, x + 3.4, y + 2.6, 2.2, pal, kind, r.uniform(-.6, .6), glow)
+                gem(t, x + 4.2, y + 3.2, 2.1, pal, kind, r.uniform(-.35, .35), glow)
         elif kind == "lump":
             gem(t, x, y, 3.6 * s, pal, kind, r.uniform(0, 3), glow)
             gem(t, x + r.uniform(2.5, 4), y + r.uniform(-2.5, 2.5), 2.0 * s, pal, kind, r.uniform(0, 3), glow)

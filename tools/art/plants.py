@@ -4,7 +4,7 @@ import numpy as np
 from color import blend, gray, lift, ramp, rgb
 from leaves import GREENS, leaves
 from noise import X, Y, fbm, points, rng, roll, ss, value, wrap
-from sprite import DEEP_GREEN, GREEN, OLIVE, ball, bloom, leaf, pal, shoots, sprite, stalk, stroke, tuft
+from sprite import DEEP_GREEN, GREEN, OLIVE, ball, bloom, curve, leaf, pal, shoots, sprite, stalk, stroke, tuft
 from tex import Tex, add
 from wood import WOODS, bamboo
 
@@ -27,23 +27,25 @@ def tall(name, colors=TINTED, top=False, width=2.6, count=13, heads=None):
     return t
 
 
-def fern(name, colors=TINTED, fronds=7, top=False, height=24, spread=13):
+def fern(name, colors=TINTED, fronds=7, top=False, height=25, spread=14):
+    """Arching fronds with pinnae on both sides, the inner ones in front."""
     t = sprite(name)
     r = rng(name.replace("_top", "").replace("_bottom", ""))
     base = 64 if top else 32
-    order = sorted(range(fronds), key=lambda k: -abs(k - fronds // 2))
-    for k in order:
+    for k in sorted(range(fronds), key=lambda k: -abs(k - fronds // 2)):
         u = (k + .5) / fronds * 2 - 1
-        hgt = height * (1 - .55 * abs(u)) * r.uniform(.9, 1.05)
-        x1 = 16 + u * spread
-        path = [(16 + u, base), (16 + u * spread * .5, base - hgt * .95), (x1, base - hgt * (.95 - .3 * abs(u)))]
-        from sprite import curve
-        pts = curve(path, 14)
-        for j, (x, y) in enumerate(pts[2:]):
-            size = (1 - j / 13) * 4.2 + 1.2
+        hgt = height * (1 - .5 * abs(u)) * r.uniform(.92, 1.05)
+        path = [(16 + u, base), (16 + u * spread * .35, base - hgt), (16 + u * spread, base - hgt * (1 - .45 * abs(u)))]
+        pts = curve(path, max(7, int(hgt / 2.6)))
+        shade = .62 - .30 * abs(u)
+        for j in range(2, len(pts)):
+            (x, y), (xp, yp) = pts[j], pts[j - 1]
+            along = np.degrees(np.arctan2(-(y - yp), x - xp))
+            size = 1.8 + 5.0 * (1 - j / len(pts)) ** .8
             for side in (-1, 1):
-                leaf(t, x, y, 90 + side * (68 - 20 * j / 13) - u * 50, size, 1.7, colors, .44 + .025 * j + .06 * side, rib=False)
-        stroke(t, path, 1.3, .8, colors, .38, .3, seam=False)
+                a = np.radians(along + side * 58)
+                stroke(t, [(x, y), (x + size * np.cos(a), y - size * np.sin(a))], 1.5, 1, colors, shade + .10 * (side > 0), .25, seam=False)
+        stroke(t, path, 1.3, .9, colors, shade - .22, .2, seam=False)
     return t
 
 
@@ -258,12 +260,14 @@ def strip_leaf(name):
 
 
 def small_dripleaf(name, top):
+    """One drawing 64 high, of which each half shows its part."""
     t = sprite(name)
-    base = 64 if top else 32
+    off = 0 if top else -32
     p = ramp("#6b9a42", .2, .16, 8)
-    for x1, y1 in ((8, 44), (24, 50), (17, 36)):
-        stroke(t, [(16, 64.5 - (64 - base)), (16, 52 - (64 - base)), (x1, y1 - (64 - base) + 4)], 1.6, 1.2, DEEP_GREEN)
-        leaf(t, x1 - 6, y1 - (64 - base) + 2, 0, 12, 5, p, .55)
+    for x1, y1 in ((7, 20), (25, 14), (17, 34), (9, 44), (24, 40)):
+        stroke(t, [(16, 64.5 + off), (16, (64 + y1) / 2 + off), (x1, y1 + off)], 1.6, 1.2, DEEP_GREEN)
+    for x1, y1 in ((17, 34), (9, 44), (24, 40), (7, 20), (25, 14)):
+        leaf(t, x1 - 7, y1 + off, 4, 14, 5.5, p, .55)
     return t
 
 

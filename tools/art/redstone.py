@@ -38,7 +38,7 @@ def rail(name, kind="plain", on=False, corner=False):
         d = np.hypot(X - 31.5, Y - 31.5)
         a = np.arctan2(31.5 - Y, 31.5 - X)
         ties = (d > 5) & (d < 28) & (np.abs(((a / (np.pi / 2) * 4) % 1) - .5) < .2)
-        rails = (np.abs(d - 8.5) < 1.5) | (np.abs(d - 24.5) < 1.5)
+        rails = (np.abs(d - 7.5) < 1.5) | (np.abs(d - 24.5) < 1.5)
         f = .6 - .1 * (d % 3 - 1)
     else:
         ties = (Y % 8 >= 2) & (Y % 8 < 6) & (X > 2) & (X < 29)

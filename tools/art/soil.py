@@ -26,7 +26,7 @@ def pebbles(t, name, color, count, size=(1.3, 2.4)):
     return t
 
 
-def dirt(name, base=DIRT, stones=5, stone="#9b8a76", cells=6, rough=.95, dark=.17, light=.13, seed=None):
+def dirt(name, base=DIRT, stones=4, stone="#85705a", cells=6, rough=.95, dark=.17, light=.13, seed=None):
     """Clods of earth pressed together, with a few pebbles."""
     t = Tex(name, rough)
     s = seed or name
@@ -43,6 +43,7 @@ def blades(t, name, ramp_, count=190, length=(3, 6), lean=.8, curl=0., mask=None
     """Short strokes laid over each other, dark at the root and light at the tip, the nearest last."""
     r = rng(name + "/blades")
     t.h[:] = 0
+    t.bump = .4
     n = len(ramp_)
     order = np.linspace(0, 1, count)
     for k in range(count):
@@ -101,13 +102,9 @@ def sand(name, base, ripples=True, rough=.95, dark=.10, light=.07, waves=3, grai
     wave = np.where(phase < .65, phase / .65, (1 - phase) / .35)
     strength = .5 + .5 * value(name + "/st", 3, 3)
     g = value(name + "/g1", 16, 16) * .6 + value(name + "/g2", 11, 22) * .5
-    f = .56 + grain * g + (ripples * .20 * strength * (wave - .5))
+    f = .56 + grain * g + (ripples * .30 * strength * (wave - .5))
     t.fill(f, ramp(base, dark, light, 7))
     t.h = 1.3 * wave * strength * ripples + .25 * g
-    r = rng(name)
-    for _ in range(12):
-        x, y = r.integers(0, 32, 2)
-        t.rgb[y, x] = ramp(base, .16, .12, 5)[0 if r.random() < .6 else 4]
     return t
 
 
@@ -233,7 +230,7 @@ SOILS = {
     "dirt": (dirt, (), {}),
     "coarse_dirt": (dirt, ("#75553b", 13), {}),
     "sand": (sand, ("#e2d5a4",), {}),
-    "red_sand": (sand, ("#bf6a2c",), {}),
+    "red_sand": (sand, ("#b9683a",), {}),
     "smooth_sand": (sand, ("#efe2bd", False), dict(dark=.05, light=.04)),
     "gravel": (gravel, (), {}),
     "clay": (lumps, ("#a1a8b5",), {}),

@@ -14,7 +14,7 @@ def facet_field(name, nx=4, ny=4, sy=1., tilt=.035, crack=.55, width=.55):
     c = Cells(points(name, nx, ny, .95), sy=sy, x=wx, y=wy)
     gx, gy = c.per(name + "/gx", -1, 1), c.per(name + "/gy", -1, 1)
     plane = tilt * (gx * c.vx + gy * c.vy)
-    tone = .5 + .5 * plane + c.per(name + "/tone", -.13, .13) - .08 * (gx + gy) * .7
+    tone = .5 + .5 * plane + c.per(name + "/tone", -.09, .09) - .04 * (gx + gy)
     cracked = (c.edge < width) & (c.pair(name) < crack)
     h = 1.1 * plane * 6 + c.per(name + "/hh", 0, 1.2) + ss(0, 1.6, c.edge) * .5 - cracked * 1.1
     return tone, h, cracked
@@ -107,7 +107,7 @@ def veined(name, base, vein, rough=.6, dark=.08, light=.07, width=.07):
     return t
 
 
-def cobble(name, base, dark=.22, light=.16, nx=4, ny=4, gap=.75, rough=.85, mortar=None, spread=.22, hue=None, seed=None):
+def cobble(name, base, dark=.18, light=.14, nx=4, ny=4, gap=.75, rough=.85, mortar=None, spread=.22, hue=None, seed=None):
     """Rounded stones set close, lit from the upper left, each with its own tone."""
     t = Tex(name, rough)
     s = seed or name
@@ -122,7 +122,7 @@ def cobble(name, base, dark=.22, light=.16, nx=4, ny=4, gap=.75, rough=.85, mort
         idx = np.clip((f * 8).astype(int), 0, 7)
         t.put(pick, other[clean(idx, 1)])
     m = c.edge < gap
-    low = ramp(mortar or mix(base, "#1a1e2a", .55), .06, .06, 3)
+    low = ramp(mortar or mix(base, "#201f24", .5), .06, .06, 3)
     t.put(m, low[1])
     t.put(m & (c.edge < gap * .45), low[0])
     lit = roll(m, 1, 1) & ~m
@@ -252,7 +252,7 @@ for _n in ("granite", "diorite", "andesite", "tuff", "marble", "slate", "deepsla
     add("polished_" + _n, polished, NATURAL[_n])
 add("smooth_stone_slab_side", polished, NATURAL["smooth_stone"], .6)
 add("mossy_cobblestone", moss_over, NATURAL["cobblestone"])
-for _red, _c in (("", "#dbcb98"), ("red_", "#b8682c")):
+for _red, _c in (("", "#dbcb98"), ("red_", "#b4653a")):
     add(_red + "sandstone", sandstone, _c)
     add(_red + "sandstone_top", sandstone, _c, "top")
     add(_red + "sandstone_bottom", sandstone, _c, "bottom")

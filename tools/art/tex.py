@@ -33,6 +33,7 @@ class Tex:
         self.r = np.full((N, N), float(rough))
         self.e = None
         self.wrap = True
+        self.bump = .75  # how steep the normals are; fine structure needs less, or it glitters
 
     def copy(self, name=None):
         t = Tex(name or self.name)
@@ -95,7 +96,7 @@ class Tex:
             # Mipmaps mix in what lies under clear pixels: give them the sprite's own mean.
             color[alpha == 0] = color[alpha > 0].mean(0)
         rgba = np.dstack([np.round(np.clip(color, 0, 1) * 255).astype(np.uint8), alpha])
-        h = self.h
+        h = self.h * self.bump
         if self.wrap:
             dx, dy = (roll(h, -1, 0) - roll(h, 1, 0)) / 2, (roll(h, 0, -1) - roll(h, 0, 1)) / 2
         else:

@@ -114,7 +114,7 @@ def planks(name, base, dark=.13, light=.09, rows=((0, 8), (8, 8), (16, 8), (24, 
     for k, (y0, hgt) in enumerate(rows):
         rows_ = slice(y0, y0 + hgt)
         g = grain_field(f"{name}/{k}")
-        f[rows_] += tones[k % 4] + .20 * g[rows_]
+        f[rows_] += tones[k % 4] + .30 * g[rows_]
         # A knot now and then, with the fibers bending round it.
         if r.random() < .5:
             kx, ky = r.uniform(4, 28), y0 + 3.2
