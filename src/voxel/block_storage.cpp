@@ -66,6 +66,15 @@ BlockStorage BlockStorage::from_indices(std::span<const StateId> palette, std::s
     return from_states(states);
 }
 
+BlockStorage BlockStorage::from_packed(std::vector<StateId> palette, std::vector<u64> words) {
+    BlockStorage out;
+    out.bits_ = bits_for_palette(palette.size());
+    VX_ASSERT(!palette.empty() && words.size() == std::size_t(out.bits_) * 64);
+    out.palette_ = std::move(palette);
+    out.words_ = std::move(words);
+    return out;
+}
+
 void BlockStorage::set(LocalPos at, StateId state) {
     u32 slot = u32(std::find(palette_.begin(), palette_.end(), state) - palette_.begin());
     if (slot == palette_.size()) {

@@ -21,6 +21,9 @@ public:
     static BlockStorage from_states(std::span<const StateId, kChunkVolume> states);
     // From a palette and 4096 indices into it (each must be below palette.size()); unused and doubled entries go.
     static BlockStorage from_indices(std::span<const StateId> palette, std::span<const u16, kChunkVolume> indices);
+    // From what `palette` and `words` of another storage gave: bits_for_palette(palette.size()) * 64 words whose indices the
+    // caller has checked to be below palette.size().
+    static BlockStorage from_packed(std::vector<StateId> palette, std::vector<u64> words);
 
     StateId get(LocalPos at) const { return palette_[index_at(at.index)]; }
     void set(LocalPos at, StateId state);

@@ -12,15 +12,26 @@ namespace vitrail {
 namespace {
 
 constexpr u8 kFormat = 1;
+// Shorter bodies (uniform chunks) do not shrink.
+constexpr std::size_t kPackFrom = 64;
 // Low four bits of the first byte: format; high four: how the rest is packed.
 enum Packing : u8 { kPlain = 0, kZstd = 1 };
 enum SectionNumber : u32 { kBlocks = 1, kLight, kBiomes, kBlockEntities, kTicks, kEntities, kRevision };
 
+// A thread's own, so that no call allocates them: zstd's are 100 KB and slow to make.
 struct Contexts {
     ZSTD_CCtx* pack = ZSTD_createCCtx();
     ZSTD_DCtx* unpack = ZSTD_createDCtx();
     ByteWriter body, section;
     Bytes plain;
+    std::array<u16, kChunkVolume> indices, values;
+    std::vector<u16> slot_of = std::vector<u16>(65536, kNoSlot); // of a light value in the palette being made
+    static constexpr u16 kNoSlot = 0xffff;
+
+    Contexts() {
+        ZSTD_CCtx_setParameter(pack, ZSTD_c_compressionLevel, 1);
+        ZSTD_CCtx_setParameter(pack, ZSTD_c_contentSizeFlag, 0); // our own head has it
+    }
     ~Contexts() {
         ZSTD_freeCCtx(pack);
         ZSTD_freeDCtx(unpack);
@@ -32,21 +43,115 @@ Contexts& contexts() {
     return c;
 }
 
-void put_blocks(ByteWriter& out, const BlockStorage& given) {
-    BlockStorage blocks = given;
-    blocks.compact();
-    out.put_varint(blocks.palette().size());
-    for (StateId id : blocks.palette())
-        out.put_varint(u32(id));
-    out.put_raw(blocks.words().data(), blocks.words().size_bytes());
+// 4096 indices, `bits` each (0, 1, 2, 4, 8 or 16), low bits first: the words of a BlockStorage as bytes.
+void put_packed(ByteWriter& out, std::span<const u16, kChunkVolume> indices, unsigned bits) {
+    if (bits == 0) return;
+    if (bits == 16) return out.put_raw(indices.data(), indices.size_bytes());
+    const std::size_t start = out.size();
+    out.bytes().resize(start + bits * 512);
+    u8* to = out.bytes().data() + start;
+    const u32 in_byte = 8 / bits;
+    for (u32 cell = 0; cell < kChunkVolume; cell += in_byte) {
+        u32 byte = 0;
+        for (u32 i = 0; i < in_byte; ++i)
+            byte |= u32(indices[cell + i]) << (i * bits);
+        *to++ = u8(byte);
+    }
 }
 
+// Whether all indices in `packed` are below `count`.
+template <unsigned Bits>
+bool fields_below(ByteView packed, u32 count) {
+    u8 most = 0;
+    for (u8 byte : packed)
+        for (unsigned shift = 0; shift < 8; shift += Bits)
+            most = std::max(most, u8(byte >> shift & ((1u << Bits) - 1)));
+    return most < count;
+}
+
+bool indices_below(ByteView packed, unsigned bits, u32 count) {
+    if (count == 1u << bits) return true;
+    switch (bits) {
+    case 2:
+        return fields_below<2>(packed, count);
+    case 4:
+        return fields_below<4>(packed, count);
+    case 8:
+        return fields_below<8>(packed, count);
+    case 16: {
+        u16 most = 0, index;
+        for (std::size_t i = 0; i < packed.size(); i += 2) {
+            std::memcpy(&index, packed.data() + i, 2);
+            most = std::max(most, index);
+        }
+        return most < count;
+    }
+    default:
+        return true; // 0 and 1 bits: count is always 1 or 2
+    }
+}
+
+// Palette entries in order of first appearance, all of them used: then equal chunks have equal records.
+bool in_first_use_order(std::span<const u16, kChunkVolume> indices, std::size_t count) {
+    u32 next = 0;
+    for (u16 i : indices) {
+        if (i < next) continue;
+        if (i > next) return false;
+        ++next;
+    }
+    return next == count;
+}
+
+void put_blocks(ByteWriter& out, const BlockStorage& blocks) {
+    if (blocks.uniform()) {
+        out.put_varint(1);
+        return out.put_varint(u32(blocks.palette()[0]));
+    }
+    auto& indices = contexts().indices;
+    blocks.unpack_indices(indices);
+    const bool ready = in_first_use_order(indices, blocks.palette().size());
+    const BlockStorage tidy = ready ? BlockStorage() : BlockStorage::from_indices(blocks.palette(), indices);
+    const BlockStorage& b = ready ? blocks : tidy;
+    out.put_varint(b.palette().size());
+    for (StateId id : b.palette())
+        out.put_varint(u32(id));
+    out.put_raw(b.words().data(), b.words().size_bytes());
+}
+
+// Light goes through a palette like blocks: it has few different values a chunk, and zstd finds repeated rows in four
+// bits a cell where it does not in sixteen. More than 256 values: palette length 0 and the cells as they are.
 void put_light(ByteWriter& out, const LightVolume& light) {
     const auto* cells = light.cells();
-    const Light first = light.get(LocalPos());
-    const bool uniform = !cells || std::all_of(cells->begin(), cells->end(), [&](Light l) { return l == first; });
-    if (uniform) return out.put_u16(first.bits);
-    out.put_raw(cells->data(), sizeof *cells);
+    if (!cells) {
+        out.put_varint(1);
+        return out.put_varint(light.get(LocalPos()).bits);
+    }
+    Contexts& c = contexts();
+    u32 count = 0;
+    u16 last = u16(~(*cells)[0].bits), slot = 0;
+    for (u32 i = 0; i < kChunkVolume && count <= 256; ++i) {
+        const u16 value = (*cells)[i].bits;
+        if (value != last) {
+            last = value;
+            u16& known = c.slot_of[value];
+            if (known == Contexts::kNoSlot) {
+                known = u16(count);
+                c.values[count++] = value;
+            }
+            slot = known;
+        }
+        c.indices[i] = slot;
+    }
+    for (u32 i = 0; i < count; ++i)
+        c.slot_of[c.values[i]] = Contexts::kNoSlot;
+    if (count > 256) {
+        out.put_varint(0);
+        return out.put_raw(cells->data(), sizeof *cells);
+    }
+    out.put_varint(count);
+    for (u32 i = 0; i < count; ++i)
+        out.put_varint(c.values[i]);
+    put_packed(out, c.indices, bits_for_palette(count));
 }
 
 bool get_blocks(ByteReader& in, const DecodeLimits& limits, BlockStorage& blocks) {
@@ -60,28 +165,58 @@ bool get_blocks(ByteReader& in, const DecodeLimits& limits, BlockStorage& blocks
     }
     const unsigned bits = bits_for_palette(count);
     const ByteView packed = in.get_bytes(u64(bits) * 512);
-    if (in.failed()) return false;
-    std::array<u16, kChunkVolume> indices{};
-    for (u32 cell = 0; bits > 0 && cell < kChunkVolume; ++cell) {
-        const u32 bit = cell * bits;
-        u32 v = packed[bit >> 3];
-        if (bits == 16) v |= u32(packed[(bit >> 3) + 1]) << 8;
-        v = v >> (bit & 7) & ((1u << bits) - 1);
-        if (v >= count) return false;
-        indices[cell] = u16(v);
-    }
-    blocks = BlockStorage::from_indices(palette, indices);
+    if (in.failed() || !indices_below(packed, bits, u32(count))) return false;
+    std::vector<u64> words(std::size_t(bits) * 64);
+    if (bits > 0) std::memcpy(words.data(), packed.data(), packed.size());
+    blocks = BlockStorage::from_packed(std::move(palette), std::move(words));
     return true;
 }
 
+template <unsigned Bits>
+void unpack_light(ByteView packed, const std::array<u16, 256>& values, LightVolume::Cells& cells) {
+    constexpr u32 in_byte = 8 / Bits;
+    for (u32 i = 0; i < kChunkVolume / in_byte; ++i)
+        for (u32 k = 0; k < in_byte; ++k)
+            cells[i * in_byte + k] = Light(values[packed[i] >> (k * Bits) & ((1u << Bits) - 1)]);
+}
+
 bool get_light(ByteReader& in, LightVolume& light) {
-    if (in.remaining() == 2) {
-        light = LightVolume(Light(in.get_u16()));
+    const u64 count = in.get_varint();
+    if (count == 0) {
+        const ByteView raw = in.get_bytes(sizeof(LightVolume::Cells));
+        if (in.failed()) return false;
+        std::memcpy(light.writable().data(), raw.data(), raw.size());
         return true;
     }
-    const ByteView raw = in.get_bytes(sizeof(LightVolume::Cells));
-    if (in.failed()) return false;
-    std::memcpy(light.writable().data(), raw.data(), raw.size());
+    if (count > 256 || count > in.remaining()) return false;
+    std::array<u16, 256> values{}; // all 256, so that no index can lie outside
+    for (u64 i = 0; i < count; ++i) {
+        const u64 value = in.get_varint();
+        if (value > 0xffff) return false;
+        values[i] = u16(value);
+    }
+    if (count == 1) {
+        light = LightVolume(Light(values[0]));
+        return !in.failed();
+    }
+    const unsigned bits = bits_for_palette(count);
+    const ByteView packed = in.get_bytes(bits * 512);
+    if (in.failed() || !indices_below(packed, bits, u32(count))) return false;
+    auto& cells = light.writable();
+    switch (bits) {
+    case 1:
+        unpack_light<1>(packed, values, cells);
+        break;
+    case 2:
+        unpack_light<2>(packed, values, cells);
+        break;
+    case 4:
+        unpack_light<4>(packed, values, cells);
+        break;
+    default:
+        unpack_light<8>(packed, values, cells);
+        break;
+    }
     return true;
 }
 
@@ -111,21 +246,41 @@ bool get_ticks(ByteReader& in, const DecodeLimits& limits, std::vector<Scheduled
     return true;
 }
 
+// Runs of equal biomes over the lowest layer of 4 x 4, and over the other three only where they differ from it.
+void put_biomes(ByteWriter& out, const BiomeGrid& biomes) {
+    const auto& cells = biomes.cells;
+    const bool alike = std::equal(cells.begin(), cells.begin() + 48, cells.begin() + 16);
+    const u32 size = alike ? 16 : 64;
+    out.put_u8(u8(size / 16));
+    for (u32 i = 0; i < size;) {
+        u32 run = 1;
+        while (i + run < size && cells[i + run] == cells[i])
+            ++run;
+        out.put_varint(u32(cells[i]));
+        out.put_varint(run);
+        i += run;
+    }
+}
+
 bool get_biomes(ByteReader& in, const DecodeLimits& limits, BiomeGrid& out) {
-    u32 at = 0;
-    while (at < out.cells.size() && !in.failed()) {
+    const u32 layers = in.get_u8();
+    if (layers != 1 && layers != 4) return false;
+    const u32 size = layers * 16;
+    for (u32 at = 0; at < size && !in.failed();) {
         const u64 id = in.get_varint(), run = in.get_varint();
-        if (id >= limits.biome_count || run == 0 || run > out.cells.size() - at) return false;
+        if (id >= limits.biome_count || id > 0xffff || run == 0 || run > size - at) return false;
         for (u64 i = 0; i < run; ++i)
             out.cells[at++] = BiomeId(u16(id));
     }
+    for (u32 i = size; i < 64; ++i)
+        out.cells[i] = out.cells[i - 16];
     return true;
 }
 
-void put_section(ByteWriter& body, u32 number, const ByteWriter& section) {
+void put_section(ByteWriter& body, u32 number, ByteWriter& section) {
     body.put_varint(number);
     body.put_varint(section.size());
-    body.put_raw(const_cast<ByteWriter&>(section).bytes().data(), section.size());
+    body.put_bytes(section.bytes());
 }
 
 } // namespace
@@ -150,16 +305,7 @@ void encode_chunk(const Chunk& chunk, u32 parts, Bytes& out) {
     section(kRevision, kChunkRevision, chunk.revision != 0, [&] { s.put_varint(chunk.revision); });
     section(kBlocks, kChunkBlocks, true, [&] { put_blocks(s, chunk.blocks); });
     section(kLight, kChunkLight, chunk.light != nullptr, [&] { put_light(s, *chunk.light); });
-    section(kBiomes, kChunkBiomes, !(chunk.biomes == BiomeGrid{}), [&] {
-        for (u32 i = 0; i < 64;) {
-            u32 run = 1;
-            while (i + run < 64 && chunk.biomes.cells[i + run] == chunk.biomes.cells[i])
-                ++run;
-            s.put_varint(u32(chunk.biomes.cells[i]));
-            s.put_varint(run);
-            i += run;
-        }
-    });
+    section(kBiomes, kChunkBiomes, !(chunk.biomes == BiomeGrid{}), [&] { put_biomes(s, chunk.biomes); });
     section(kBlockEntities, kChunkBlockEntities, !chunk.block_entities.empty(), [&] {
         s.put_varint(chunk.block_entities.size());
         for (const auto& e : chunk.block_entities) {
@@ -186,14 +332,14 @@ void encode_chunk(const Chunk& chunk, u32 parts, Bytes& out) {
     });
     const std::size_t start = out.size();
     const std::size_t plain = body.size();
-    if (plain > 64) {
+    if (plain > kPackFrom) {
         ByteWriter head;
         head.put_u8(kFormat | kZstd << 4);
         head.put_varint(plain);
         out.resize(start + head.size() + ZSTD_compressBound(plain));
         std::copy(head.bytes().begin(), head.bytes().end(), out.begin() + std::ptrdiff_t(start));
-        const std::size_t packed = ZSTD_compressCCtx(c.pack, out.data() + start + head.size(),
-                                                     out.size() - start - head.size(), body.bytes().data(), plain, 1);
+        const std::size_t packed = ZSTD_compress2(c.pack, out.data() + start + head.size(),
+                                                  out.size() - start - head.size(), body.bytes().data(), plain);
         VX_ASSERT(!ZSTD_isError(packed));
         if (packed + head.size() < plain + 1) {
             out.resize(start + head.size() + packed);
