@@ -115,6 +115,13 @@ function turned(boxes, more, extra)
   return out
 end
 
+--- A variant for each of the sixteen rotations from what `f` says of the nearest facing; 0 looks south.
+function by_rotation(f)
+  local out, ways = {}, { [0] = "south", "west", "north", "east" }
+  for r = 0, 15 do out["rotation=" .. r] = f(ways[((r + 2) // 4) % 4]) end
+  return out
+end
+
 --- The same for all six facings: the north face of the boxes ends up looking up or down.
 function turned6(boxes)
   local out = turned(boxes)

@@ -21,13 +21,9 @@ function plank_family(wood, def)
   block(wood .. "_wall_sign", merge(sign, { shape = "wall_sign" }), "facing wl")
   local hang = { { 1, 0, 7, 15, 10, 9 }, { 2, 10, 8, 4, 16, 8, "chain" }, { 12, 10, 8, 14, 16, 8, "chain" } }
   block(wood .. "_hanging_sign", merge(sign, { shape = "boxes", layer = "cutout", boxes = hang,
-    variants = (function()
-      local v = {}
-      for r = 0, 15 do
-        if (r // 4) % 2 == 1 then v["rotation=" .. r] = { boxes = quarter(hang) } end
-      end
-      return v
-    end)() }), "attached? " .. WOOD_SIGN)
+    variants = by_rotation(function(facing)
+      return { boxes = (facing == "east" or facing == "west") and quarter(hang) or hang }
+    end) }), "attached? " .. WOOD_SIGN)
   local bracket = { { 0, 14, 6, 16, 16, 10 } }
   for _, b in ipairs(hang) do bracket[#bracket + 1] = b end
   block(wood .. "_wall_hanging_sign", merge(sign, { shape = "boxes", layer = "cutout", boxes = bracket, variants = turned(bracket) }),

@@ -6,7 +6,8 @@ for _, c in ipairs(COLORS) do
   block(c .. "_concrete", merge(STONE, { texture = c .. "_concrete", hardness = 1.8 }))
   block(c .. "_concrete_powder", { texture = c .. "_concrete_powder", material = "sand", hardness = 0.5 })
   block(c .. "_terracotta", merge(STONE, { texture = c .. "_terracotta", hardness = 1.25 }))
-  block(c .. "_glazed_terracotta", merge(STONE, { texture = c .. "_glazed_terracotta", hardness = 1.4 }), "facing")
+  -- Listed as side and end, so that the picture turns with the facing.
+  block(c .. "_glazed_terracotta", merge(STONE, { texture = { c .. "_glazed_terracotta", c .. "_glazed_terracotta" }, hardness = 1.4 }), "facing")
   local glass = { material = "glass", hardness = 0.3, layer = "translucent", transparency = 0.6, opacity = 0 }
   block(c .. "_stained_glass", merge(glass, { texture = c .. "_stained_glass" }))
   block(c .. "_stained_glass_pane", merge(glass, { texture = { c .. "_stained_glass", c .. "_stained_glass_pane_top" }, shape = "pane" }),
@@ -14,12 +15,10 @@ for _, c in ipairs(COLORS) do
   local cloth = { material = "wool", hardness = 0.2, opacity = 0 }
   block(c .. "_bed", merge(cloth, { shape = "bed", texture = { c .. "_bed_side", c .. "_bed_foot", "oak_planks" },
     variants = { ["part=head"] = { texture = { c .. "_bed_side", c .. "_bed_head", "oak_planks" } } } }), "facing occupied? part=foot|head")
-  local pole, along = { { 7, 0, 7, 9, 16, 9, "oak_planks" }, { 2, 2, 6, 14, 16, 7 } }, {}
-  for r = 0, 15 do
-    if (r // 4) % 2 == 1 then along["rotation=" .. r] = { boxes = quarter(pole) } end
-  end
+  local pole = { { 7, 0, 7, 9, 16, 9, "oak_planks" }, { 1, 1, 6, 15, 16, 7 } }
+  local facings = turned(pole)
   local banner = merge(cloth, { shape = "boxes", texture = c .. "_wool", collision = false, hardness = 1 })
-  block(c .. "_banner", merge(banner, { boxes = pole, variants = along }), "rotation:0-15")
+  block(c .. "_banner", merge(banner, { boxes = pole, variants = by_rotation(function(f) return facings["facing=" .. f] end) }), "rotation:0-15")
   local hung = { { 1, 14, 14, 15, 16, 16, "oak_planks" }, { 2, 0, 14, 14, 15, 15 } }
   block(c .. "_wall_banner", merge(banner, { boxes = hung, variants = turned(hung) }), "facing")
 end

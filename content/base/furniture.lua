@@ -10,9 +10,7 @@ wood("loom", { "loom_front", "loom_side", "loom_top", "oak_planks" }, "facing")
 wood("bookshelf", { "bookshelf", "oak_planks" }, nil, { hardness = 1.5 })
 wood("chiseled_bookshelf", { "chiseled_bookshelf_front", "chiseled_bookshelf_side", "chiseled_bookshelf_top", "chiseled_bookshelf_top" },
   "facing slot_0_occupied? slot_1_occupied? slot_2_occupied? slot_3_occupied? slot_4_occupied? slot_5_occupied?", { hardness = 1.5 })
-wood("barrel", { "barrel_top", "barrel_bottom", "barrel_side", "barrel_side", "barrel_side" }, "facing6 open?", { variants = {
-  ["facing=up"] = { texture = { "barrel_side", "barrel_side", "barrel_bottom", "barrel_top", "barrel_side", "barrel_side" } },
-  ["facing=down"] = { texture = { "barrel_side", "barrel_side", "barrel_top", "barrel_bottom", "barrel_side", "barrel_side" } } } })
+wood("barrel", { "barrel_top", "barrel_bottom", "barrel_side", "barrel_side", "barrel_side" }, "facing6 open?")
 wood("composter", { "composter_side", "composter_top", "composter_side" }, "level:0-8",
   { shape = "boxes", opacity = 0, hardness = 0.6, boxes = { { 0, 0, 0, 16, 2, 16 }, { 0, 2, 0, 2, 16, 16 }, { 14, 2, 0, 16, 16, 16 }, { 2, 2, 0, 14, 16, 2 },
     { 2, 2, 14, 14, 16, 16 } } })
@@ -105,7 +103,13 @@ for _, head in ipairs { "skeleton_skull", "wither_skeleton_skull", "zombie_head"
   local kind = string.match(head, "^(.*)_[^_]+$")
   local part = string.match(head, "_([^_]+)$")
   local t = { head .. "_front", head .. "_side", head .. "_side", head .. "_side" }
-  block(head, merge(DECOR, { shape = "boxes", texture = t, hardness = 1, boxes = { { 4, 0, 4, 12, 8, 12 } } }), "powered? rotation:0-15")
+  local ways = by_rotation(function(facing)
+    local f, s = t[1], t[2]
+    local function at(side) return side == facing and f or s end
+    return { texture = { at "west", at "east", s, s, at "north", at "south" } }
+  end)
+  block(head, merge(DECOR, { shape = "boxes", texture = t, hardness = 1, boxes = { { 4, 0, 4, 12, 8, 12 } }, variants = ways }),
+    "powered? rotation:0-15")
   local on_wall, w = { { 4, 4, 8, 12, 12, 16 } }, head .. "_wall"
   local hung = { w .. "_front", w .. "_side", w .. "_side", w .. "_side" }
   block(kind .. "_wall_" .. part, merge(DECOR, { shape = "boxes", texture = hung, hardness = 1, boxes = on_wall, variants = turned(on_wall) }), "facing powered?")

@@ -33,7 +33,7 @@ for _, c in ipairs { { "campfire", "fire", warm }, { "soul_campfire", "soul_fire
   local lit = { table.unpack(logs) }
   lit[#lit + 1] = { 1, 1, 8, 15, 16, 8, c[2] }
   lit[#lit + 1] = { 8, 1, 1, 8, 16, 15, c[2] }
-  local variants = { ["lit=true"] = { light = c[3], boxes = lit } }
+  local variants = { ["lit=true"] = { light = c[3], boxes = lit }, ["lit=false"] = { texture = "oak_log" } }
   for key, value in pairs(turned(lit, "lit=true")) do variants[key] = value end
   for key, value in pairs(turned(logs, "lit=false")) do variants[key] = value end
   block(c[1], merge(DECOR, { shape = "boxes", texture = { "campfire_log", "campfire_log" }, boxes = logs, material = "wood", hardness = 2,

@@ -64,31 +64,19 @@ for _, name in ipairs { "light_weighted_pressure_plate", "heavy_weighted_pressur
   pressure_plate(name, string.find(name, "light") and "gold_block" or "iron_block", METAL, "power:0-15")
 end
 
+-- Fronts and, for six facings, side pictures turn with `facing` by themselves.
 for _, name in ipairs { "dispenser", "dropper" } do
-  local up = { "furnace_top", "furnace_top", "furnace_top", name .. "_front_vertical", "furnace_top", "furnace_top" }
-  local down = { "furnace_top", "furnace_top", name .. "_front_vertical", "furnace_top", "furnace_top", "furnace_top" }
+  local vertical = { texture = { name .. "_front_vertical", "furnace_top", "furnace_top", "furnace_top" } }
   block(name, merge(STONE, { texture = { name .. "_front", "furnace_side", "furnace_top", "furnace_top" }, hardness = 3.5,
-    variants = { ["facing=up"] = { texture = up }, ["facing=down"] = { texture = down } } }), "facing6 triggered?")
+    variants = { ["facing=up"] = vertical, ["facing=down"] = vertical } }), "facing6 triggered?")
 end
---- Six textures for a block whose front looks along each facing.
-local function fronted(front, back, side)
-  local order, opposite = { "west", "east", "down", "up", "north", "south" },
-    { west = "east", east = "west", up = "down", down = "up", north = "south", south = "north" }
-  local out = {}
-  for _, facing in ipairs(order) do
-    local faces = {}
-    for i, f in ipairs(order) do faces[i] = f == facing and front or (f == opposite[facing] and back or side) end
-    out["facing=" .. facing] = { texture = faces }
-  end
-  return out
-end
-block("observer", merge(STONE, { texture = { "observer_front", "observer_back", "observer_side", "observer_side", "observer_side" }, hardness = 3,
-  variants = fronted("observer_front", "observer_back", "observer_side") }), "facing6 powered?")
+block("observer", merge(STONE, { texture = { "observer_front", "observer_back", "observer_side", "observer_side", "observer_side" }, hardness = 3 }),
+  "facing6 powered?")
 
 local EXTENDED = { { 0, 0, 4, 16, 16, 16 } }
 for _, name in ipairs { "piston", "sticky_piston" } do
   local head = name == "piston" and "piston_top" or "piston_top_sticky"
-  local variants = fronted(head, "piston_bottom", "piston_side")
+  local variants = {}
   for key, value in pairs(turned6(EXTENDED)) do
     variants[key .. ",extended=true"] = { shape = "boxes", boxes = value.boxes, opacity = 0 }
   end
@@ -123,8 +111,8 @@ trapdoor("iron_trapdoor", { material = "metal", hardness = 5 })
 block("iron_bars", merge(METAL, { shape = "pane", texture = { "iron_bars", "iron_bars" }, layer = "cutout", opacity = 0 }), SIDES4 .. " wl")
 
 for _, name in ipairs { "command_block", "chain_command_block", "repeating_command_block" } do
-  block(name, merge(METAL, { texture = { name .. "_front", name .. "_side", name .. "_side", name .. "_side" }, hardness = -1,
-    variants = fronted(name .. "_front", name .. "_side", name .. "_side") }), "conditional? facing6")
+  block(name, merge(METAL, { texture = { name .. "_front", name .. "_side", name .. "_side", name .. "_side" }, hardness = -1 }),
+    "conditional? facing6")
 end
 block("structure_block", merge(METAL, { texture = "structure_block", hardness = -1 }), "mode=load|save|corner|data")
 block("jigsaw", merge(METAL, { texture = "structure_block", hardness = -1 }),

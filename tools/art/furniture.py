@@ -151,8 +151,10 @@ def chest(name, part, ender=False):
     base = "#a8763a" if not ender else "#26323a"
     t = wooden("chest_" + part, base, False)
     t.wrap = False
-    edge = (X < 4) | (X > 27) | ((Y < 6) if part == "top" else (Y < 5)) | (Y > 27)
-    t.light(np.where(edge, -.34, 0) + np.where(D <= 2, .12, 0))
+    # A chest is 14 wide and 14 high, so its rim lies within the tile.
+    d = np.minimum(np.minimum(X - 2, 29 - X), np.minimum(Y - (2 if part == "top" else 4), (29 if part == "top" else 31) - Y))
+    edge = d < 3
+    t.light(np.where(edge, -.34, 0) + np.where(d == 1, .14, 0) - np.where(d == 3, .14, 0))
     if part != "top":
         lid = np.abs(Y - 13) < 1
         t.light(np.where(lid, -.5, 0) + np.where(Y == 14, .14, 0))

@@ -84,9 +84,9 @@ def repeater(name, on, compare=False):
 
 def lever(name):
     t = sprite(name)
-    m = (X >= 14) & (X < 18) & (Y >= 12)
+    m = (X >= 14) & (X < 18) & (Y >= 10)
     t.shade(m, ramp("#8a6538", .2, .14, 7), np.clip(.72 - .15 * (X - 14) + .1 * value(name, 16, 8), 0, .99), h=1.)
-    t.shade(m & (Y < 16), ramp("#8d8f96", .18, .18, 6), np.clip(.8 - .14 * (X - 14) - .05 * (Y - 12), 0, .99), r=.4)
+    t.shade(m & (Y < 14), ramp("#8d8f96", .18, .18, 6), np.clip(.8 - .14 * (X - 14) - .05 * (Y - 12), 0, .99), r=.4)
     return t
 
 
