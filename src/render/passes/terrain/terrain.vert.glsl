@@ -14,7 +14,7 @@ layout(location = 0) out vec3 v_uv_ao;
 layout(location = 1) out vec3 v_light_at;
 layout(location = 2) out vec3 v_tint;
 layout(location = 3) flat out uvec2 v_surface; // layer; normal bytes, view, flags
-#ifdef HIGH
+#if defined(HIGH) || defined(LIQUID)
 layout(location = 4) out vec3 v_position;
 #endif
 #ifdef LIQUID
@@ -134,7 +134,7 @@ void main() {
     v_tint = tint_of(q.y >> 16 & 7u, q.y >> 19 & 255u, uint(in_section.w) >> 16, local.xz);
     uvec2 n = normal_bytes(normal);
     v_surface = uvec2(q.y & 0xffffu, n.x | n.y << 8 | u_view << 16 | ((q.y >> 28 & 1u) != 0u ? kFlagLiquid << 24 : 0u));
-#ifdef HIGH
+#if defined(HIGH) || defined(LIQUID)
     v_position = position;
 #endif
 #ifdef LIQUID
