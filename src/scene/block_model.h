@@ -24,13 +24,14 @@
 
 namespace vitrail::scene {
 
+// Only `opaque` is odd, so that kinds() serves as flags for voxel/surface.h and voxel/connectivity.h (bit 1).
 enum class ModelKind : u8 {
-    nothing,     // draws nothing
-    opaque,      // full cube that hides what is behind it
-    cutout,      // full cube with holes (leaves, spawner)
-    translucent, // full cube of glass or ice: faces between equal states are left out
-    liquid,      // model quads that follow from the neighbors (surface corners), made by the mesher
-    model,       // fixed model quads
+    nothing = 0,     // draws nothing
+    opaque = 1,      // full cube that hides what is behind it
+    cutout = 2,      // full cube with holes (leaves, spawner)
+    translucent = 4, // full cube of glass or ice: faces between equal states are left out
+    liquid = 6,      // model quads that follow from the neighbors (surface corners), made by the mesher
+    model = 8,       // fixed model quads
 };
 
 // How a cube's face looks: the bits of render::Quad (render/meshing/quad.h) but position, size and ambient occlusion,
@@ -41,6 +42,8 @@ using FaceLook = u64;
 // Which pass draws a quad; the values of render::QuadPass.
 enum class ModelPass : u8 { opaque, cutout, translucent };
 
+// A liquid source's surface lies this much below the top of its cell, 1/256 block (8/9 high; render::kLiquidDrop).
+inline constexpr i32 kLiquidDropUnits = 28;
 inline constexpr i32 kModelUnit = 256; // corner positions and texture coordinates are in 1/256 block
 
 // One quad of a model, 48 bytes as the vertex shader reads them (12 little-endian 32-bit words).
@@ -118,6 +121,7 @@ public:
 
 private:
     struct Impl;
+    void compile(const StateTable& states, u32 id);
     std::unique_ptr<Impl> impl_;
     ModelKind* kinds_ = nullptr;
     FaceLook* looks_ = nullptr;

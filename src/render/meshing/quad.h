@@ -1,6 +1,6 @@
 // The 8-byte quad that the mesher writes and the vertex shader reads (layout repeated in content-independent GLSL,
-// render/passes/terrain). Small because software OpenGL and GPUs alike are bound by vertices and memory here; light is not
-// in it (it is a volume a section), so that a light change meshes nothing again.
+// render/passes/terrain). Small because software OpenGL and GPUs alike are bound by vertices and memory here; light is
+// not in it (it is a volume a section), so that a light change meshes nothing again.
 //
 // bits   0..3 x, 4..7 y, 8..11 z   cell of the quad's least corner, in the section
 //       12..15 w - 1, 16..19 h - 1 cells along the face's u and v axis       (cube quads)
@@ -11,11 +11,13 @@
 //       48..50 tint                TintKind
 //       51..58 fixed tint          index into the table of fixed tints, 0 white
 //       59     sways   60 liquid surface (moves, animated normal)   61 never mipped
-//       62..63 texture turns       quarter turns of the picture, clockwise seen from outside (cube quads; scene/block_model.h)
-// A model quad keeps x, y, z, texture, tint and flags; bits 12..22 and 24..31 together are its index into the table of model
-// quads (scene/block_model.h): low 11 bits in 12..22, high 8 in 24..31.
+//       62..63 texture turns       quarter turns of the picture, clockwise seen from outside (cube quads;
+//       scene/block_model.h)
+// A model quad keeps x, y, z, texture, tint and flags; bits 12..22 and 24..31 together are its index into the table of
+// model quads (scene/block_model.h): low 11 bits in 12..22, high 8 in 24..31.
 //
-// Axes of a cube face: u, v run with the growing coordinates: x faces u = z, v = y; y faces u = x, v = z; z faces u = x, v = y.
+// Axes of a cube face: u, v run with the growing coordinates: x faces u = z, v = y; y faces u = x, v = z; z faces u =
+// x, v = y.
 #pragma once
 
 #include "base/types.h"
@@ -36,12 +38,13 @@ inline constexpr u32 kLiquidDrop = 28;
 struct Quad {
     u64 bits = 0;
 
-    static constexpr Quad cube(LocalPos at, u32 w, u32 h, Face face, u8 ao, TextureId texture, TintKind tint, u8 fixed_tint,
-                               u64 flags = 0) {
-        return {position(at) | u64(w - 1) << 12 | u64(h - 1) << 16 | u64(face) << 20 | u64(ao) << 24 | look(texture, tint, fixed_tint) |
-                flags};
+    static constexpr Quad cube(LocalPos at, u32 w, u32 h, Face face, u8 ao, TextureId texture, TintKind tint,
+                               u8 fixed_tint, u64 flags = 0) {
+        return {position(at) | u64(w - 1) << 12 | u64(h - 1) << 16 | u64(face) << 20 | u64(ao) << 24 |
+                look(texture, tint, fixed_tint) | flags};
     }
-    static constexpr Quad model(LocalPos at, u32 model_quad, TextureId texture, TintKind tint, u8 fixed_tint, u64 flags = 0) {
+    static constexpr Quad model(LocalPos at, u32 model_quad, TextureId texture, TintKind tint, u8 fixed_tint,
+                                u64 flags = 0) {
         return {position(at) | u64(model_quad & 2047) << 12 | 1ull << 23 | u64(model_quad >> 11 & 255) << 24 |
                 look(texture, tint, fixed_tint) | flags};
     }

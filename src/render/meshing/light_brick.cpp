@@ -1,0 +1,1 @@
+#include "render/meshing/light_brick.h"

@@ -1,0 +1,7 @@
+#include "render/meshing/mesh_kernels.inl"
+
+namespace vitrail::render {
+
+const MeshKernels kMeshKernelsPortable = VX_MESH_TABLE("portable");
+
+} // namespace vitrail::render
