@@ -4,10 +4,10 @@
 // On the wire: one byte of MessageType, then the struct's numbered fields (base/fields.h). A receiver skips fields it
 // does not know and refuses a type it does not know. Every count is bounded here; both sides check on reading.
 //
-// Channels (reliable and ordered each, but for `motion`): `control` greetings, requests and talk; `world` all that
-// changes a replica's blocks and the answers to edits, so that state texts come before sections that use them, deltas
-// after the section they change, and an answer after the changes it speaks of; `motion` commands and bodies, which may
-// be lost: each batch repeats what was not answered yet.
+// Channels (reliable and ordered each, but for `motion`): `control` greetings, requests and talk; `world` welcome, all that
+// changes a replica's blocks and the answers to edits, so that state texts come before sections that use them, deltas after
+// the section they change, and an answer after the changes it speaks of; `motion` commands and bodies, which may be lost:
+// each batch repeats what was not answered yet.
 #pragma once
 
 #include "base/fields.h"
@@ -94,35 +94,29 @@ constexpr WorldPos from_wire(WireWorldPos p) {
     return {p.x, p.y, p.z};
 }
 
-// One movement step of 1/60 s (rules/movement.h gives the meaning of the buttons).
+// One movement step of 1/60 s (rules/movement.h; net/body_codec.h packs the buttons).
 struct WireCommand {
     u32 number = 0; // counts from 1, without gaps
     u32 buttons = 0;
-    float yaw = 0, pitch = 0; // degrees
+    float yaw = 0, pitch = 0; // radians
     static constexpr auto fields =
         std::tuple{field<1>("number", &WireCommand::number), field<2>("buttons", &WireCommand::buttons),
                    field<3>("yaw", &WireCommand::yaw), field<4>("pitch", &WireCommand::pitch)};
     friend bool operator==(const WireCommand&, const WireCommand&) = default;
 };
 
-// All of a body that the movement step reads and writes; `bits` and `extra` are rules::BodyState's own flags and
-// counters.
+// All of a body that the movement step reads and writes (rules/body.h).
 struct WireBody {
     u32 dimension = 0;
-    WireWorldPos at;            // center of the soles
-    i64 vx = 0, vy = 0, vz = 0; // 32.32 blocks a second
-    float yaw = 0, pitch = 0;   // degrees
-    u32 bits = 0;
-    std::vector<i32> extra;
-    static constexpr auto fields = std::tuple{field<1>("dimension", &WireBody::dimension),
-                                              field<2>("at", &WireBody::at),
-                                              field<3>("vx", &WireBody::vx),
-                                              field<4>("vy", &WireBody::vy),
-                                              field<5>("vz", &WireBody::vz),
-                                              field<6>("yaw", &WireBody::yaw),
-                                              field<7>("pitch", &WireBody::pitch),
-                                              field<8>("bits", &WireBody::bits),
-                                              field<9>("extra", &WireBody::extra, {.most = 16})};
+    WireWorldPos at;              // middle of the soles
+    float vx = 0, vy = 0, vz = 0; // blocks a second
+    float yaw = 0, pitch = 0;     // radians
+    u32 bits = 0;                 // on_ground, flying, sneaking, in_liquid, climbing, from bit 0
+    static constexpr auto fields =
+        std::tuple{field<1>("dimension", &WireBody::dimension), field<2>("at", &WireBody::at),
+                   field<3>("vx", &WireBody::vx), field<4>("vy", &WireBody::vy), field<5>("vz", &WireBody::vz),
+                   field<6>("yaw", &WireBody::yaw), field<7>("pitch", &WireBody::pitch),
+                   field<8>("bits", &WireBody::bits)};
     friend bool operator==(const WireBody&, const WireBody&) = default;
 };
 
@@ -170,7 +164,7 @@ struct EditRequest {
     float hit_x = 0, hit_y = 0, hit_z = 0; // where the ray met, in blocks from the lower corner of `at`
     std::string held;                      // block name to place
     std::string target;                    // state text the player sees at `at`; another one there: refused
-    float yaw = 0, pitch = 0;              // degrees
+    float yaw = 0, pitch = 0;              // radians
     u32 after_command = 0;                 // the last movement command before it
     static constexpr auto fields = std::tuple{field<1>("sequence", &EditRequest::sequence),
                                               field<2>("kind", &EditRequest::kind),

@@ -3,7 +3,7 @@
 //
 //     replica.poll();                                        // take in what arrived
 //     if (replica.joined()) {
-//         replica.move(buttons, yaw, pitch, seconds);        // fixed steps of 1/60 s, predicted and sent
+//         replica.move(input, seconds);                    // fixed steps of 1/60 s, predicted and sent
 //         if (clicked) replica.break_block(hit.at, face, point);
 //         for (DirtySection d : replica.take_dirty()) ...    // mesh or upload again
 //         draw(replica.body_before(), replica.body(), replica.alpha());
@@ -38,11 +38,13 @@ struct ReplicaOptions {
     std::shared_ptr<const BlockRegistry> registry;
 };
 
-enum SectionChange : u8 { kBlocksChanged = 1, kLightChanged = 2, kGone = 4 };
+// What happened to a section; a new one has kBlocksChanged | kLightChanged. The border bits say that a neighbor (of 26)
+// changed where it touches: faces, ambient occlusion or smooth light along the border may differ.
+enum SectionChange : u8 { kBlocksChanged = 1, kLightChanged = 2, kGone = 4, kBorderBlocks = 8, kBorderLight = 16 };
 
 struct DirtySection {
     ChunkPos at;
-    u8 what = 0; // SectionChange bits; a section that is new has kBlocksChanged | kLightChanged
+    u8 what = 0; // SectionChange bits
 };
 
 // An answer to an edit, for sounds and messages.
@@ -79,13 +81,13 @@ public:
     const BiomeTable& biomes() const { return biomes_; }
     // Each dirty section once, with all that happened to it since the last call.
     std::vector<DirtySection> take_dirty();
-    // True where the section and its 26 neighbors that can be expected are here, so that a mesh of it will last.
     bool has_section(ChunkPos at) const { return dimension_ && dimension_->find(at) != nullptr; }
 
-    // Runs as many steps of 1/60 s as have come due after `seconds` more (at most 15 a call), with this input each.
-    void move(const rules::MoveInput& input, float seconds);
-    const rules::Body& body() const { return body_; }
-    const rules::Body& body_before() const { return body_before_; }
+    // Runs as many steps of 1/60 s as have come due after `seconds` more (at most 15 a call), with this input each
+    // (its number is not looked at; toggle_flying counts for the first).
+    void move(const MoveCommand& input, float seconds);
+    const BodyState& body() const { return body_; }
+    const BodyState& body_before() const { return body_before_; }
     float alpha() const { return alpha_; } // 0 body_before .. 1 body
 
     // Predicts and requests; the sequence number, or why the rules say no (nothing is sent then).
@@ -136,15 +138,17 @@ private:
     // predicted_edits.cpp
     ChunkPtr server_chunk(ChunkPos at) const; // as the server told it, without predictions
     void put_server_chunk(ChunkPos at, ChunkPtr chunk, u8 what);
-    void predict(const std::vector<Edit>& edits);
+    ChangeSet predict(const std::vector<Edit>& edits);
     void settle(); // shows the server's version with the pending edits on top
-    void keep_server_version(ChunkPos at);
+    void mark_borders(ChunkPos at, u8 what);
+    bool is_guess(BlockPos at) const;
     Result<u32> request(net::EditRequest request, std::vector<Edit> edits);
     std::vector<Edit> guess_laid_bare(const std::vector<Edit>& edits) const;
     void mark(ChunkPos at, u8 what);
 
     // predicted_movement.cpp
-    void run_step(const rules::MoveInput& input);
+    void run_step(MoveCommand command);
+    void place_body(const net::WireBody& body);
     void send_commands();
 
     template <class M>
@@ -156,6 +160,7 @@ private:
     std::string lost_reason_;
 
     std::shared_ptr<const BlockRegistry> registry_;
+    bool registry_told_ = false;
     std::shared_ptr<StateTable> states_;
     std::vector<StateId> own_states_; // by the server's id
     BiomeTable biomes_;
@@ -174,14 +179,15 @@ private:
 
     // Movement.
     struct SentCommand {
-        net::WireCommand command;
-        rules::Body after;
+        MoveCommand command;
+        BodyState after;
     };
-    rules::Body body_, body_before_;
+    BodyState body_, body_before_;
     std::deque<SentCommand> commands_; // not answered
-    u32 next_command_ = 1;
+    BodyState base_; // the server's, after command answered_
+    u32 next_command_ = 1, answered_ = 0;
+    bool unsent_ = false, toggle_waits_ = false;
     float due_ = 0, alpha_ = 0; // seconds; part of a step
-    float yaw_ = 0, pitch_ = 0;
 
     u32 view_distance_ = 0;
     std::vector<std::string> hotbar_;

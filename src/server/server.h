@@ -64,9 +64,6 @@ public:
     void start();
     // Ends the thread, says goodbye to all sessions and saves everything. Errors: io, where saving failed.
     Result<> stop();
-    // Ends without saving what waits: what a killed process leaves. For tests.
-    void abandon();
-
     // One tick in the calling thread; only while not started.
     void tick_once();
 

@@ -26,6 +26,8 @@ struct HeldSection {
 };
 
 struct Session {
+    DimensionId dimension() const { return body.feet.dimension; }
+
     u32 id = 0;
     std::unique_ptr<net::Transport> transport;
     bool joined = false;
@@ -34,9 +36,7 @@ struct Session {
     std::string name;
 
     // Player.
-    DimensionId dimension{};
-    rules::Body body;
-    float yaw = 0, pitch = 0; // degrees
+    BodyState body;
     std::vector<std::string> hotbar;
     u32 hotbar_selected = 0;
     bool player_dirty = false;
@@ -52,16 +52,19 @@ struct Session {
 
     // What it sees.
     u32 view_distance = 8; // chunks
+    bool columns_complete = false; // nothing in reach of loaded_around is missing
+    ColumnPos loaded_around{};
+    i32 loaded_radius = 0;
     u32 states_told = 2, biomes_told = 1;
     std::unordered_map<ChunkPos, HeldSection> held;
     std::unordered_set<ColumnPos> heights_told;
     std::deque<ChunkPos> wanted; // reached and not held, nearest first
-    ChunkPos walked_from{};
+    ChunkPos walked_from{}, walked_feet{};
     u64 walked_opened = ~u64(0);
     u64 walked_tick = 0;
     bool walk_again = true;
     u64 bytes_sent = 0, bytes_acknowledged = 0; // of sections
-    u64 messages_this_tick = 0;
+    u64 ticks_silent = 0; // before its greeting
 };
 
 // Sends; a client that does not read is dropped.
@@ -84,6 +87,5 @@ void remove_gone_sessions(ServerWorld& world);
 // Runs the commands that time allows, by rules::step, and tells each client its body.
 void move_players(ServerWorld& world);
 
-net::WireBody wire_body(DimensionId dimension, const rules::Body& body);
 
 } // namespace vitrail::server

@@ -25,6 +25,9 @@ struct Column {
 };
 
 struct ServerDimension {
+    explicit ServerDimension(Dimension d)
+        : dimension(std::move(d)) {}
+
     Dimension dimension;
     std::unordered_map<ColumnPos, Column> columns;
     // face_connections of sections looked at; goes with the section's blocks.
@@ -67,6 +70,8 @@ struct ServerWorld {
     std::unique_ptr<ChunkSource> source;
     std::map<DimensionId, ServerDimension> dimensions;
     std::vector<std::unique_ptr<Session>> sessions;
+    // Players who left since the start: the store may not have their last state yet.
+    std::unordered_map<std::string, PlayerRecord> players_left;
     u32 next_session = 1;
     u64 tick = 0;
     ServerStats stats;

@@ -23,10 +23,9 @@ WireBody random_body(Rng& rng) {
     WireBody b;
     b.dimension = rng.below(3);
     b.at = {i64(rng.next()), i64(rng.next()), i64(rng.next())};
-    b.vx = i64(rng.next()) >> 20, b.vy = i64(rng.next()) >> 20, b.vz = -1;
+    b.vx = rng.unit(), b.vy = -rng.unit(), b.vz = -1;
     b.yaw = rng.unit() * 360, b.pitch = rng.unit() * 90;
     b.bits = u32(rng.next());
-    b.extra = {1, -2, i32(rng.next())};
     return b;
 }
 

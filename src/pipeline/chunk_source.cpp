@@ -1,0 +1,109 @@
+#include "pipeline/chunk_source.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace vitrail {
+
+namespace {
+
+// As compute_heights, for a column that no dimension holds yet: a state takes sky light where its opacity is above 0.
+ColumnHeights heights_of(const std::vector<WorldRecords::ColumnChunk>& chunks, const DimensionInfo& info,
+                         const StateLight* lights) {
+    ColumnHeights heights;
+    heights.above.fill(info.min_y);
+    std::array<bool, 256> found{};
+    u32 open = 256;
+    std::array<StateId, kChunkVolume> states;
+    for (auto it = chunks.rbegin(); it != chunks.rend() && open > 0; ++it) {
+        const BlockStorage& blocks = it->chunk->blocks;
+        bool any = false;
+        for (StateId id : blocks.palette())
+            any |= lights[u32(id)].opacity > 0;
+        if (!any) continue;
+        blocks.unpack(states);
+        for (i32 y = 15; y >= 0 && open > 0; --y)
+            for (u32 i = 0; i < 256; ++i) {
+                if (found[i] || lights[u32(states[u32(y) << 8 | i])].opacity == 0) continue;
+                found[i] = true;
+                heights.above[i] = it->at.y * 16 + y + 1;
+                --open;
+            }
+    }
+    return heights;
+}
+
+} // namespace
+
+ChunkSource::ChunkSource(WorldRecords& records, SaveQueue& saves, ChunkSourceOptions options)
+    : records_(records)
+    , saves_(saves)
+    , options_(std::move(options)) {}
+
+u32 ChunkSource::generator_version(const std::string& generator) {
+    return generator.empty() ? 0 : 1;
+}
+
+Result<std::unique_ptr<ChunkSource>> ChunkSource::create(WorldRecords& records, SaveQueue& saves,
+                                                         ChunkSourceOptions options) {
+    if (!known_generator(options.generator))
+        return fail(ErrorCode::invalid_argument, fmt::format("unknown terrain generator '{}'", options.generator));
+    auto source = std::unique_ptr<ChunkSource>(new ChunkSource(records, saves, std::move(options)));
+    if (source->options_.generator.empty()) return source;
+    for (u32 i = 0; i < kTerrainBlockCount; ++i) {
+        VX_TRY_ASSIGN(BlockState state, parse_block_state(kTerrainBlockNames[i]));
+        VX_TRY_ASSIGN(source->palette_.blocks[i], records.states().intern_with_defaults(std::move(state)));
+        source->palette_.takes_light[i] = records.states().light_data()[u32(source->palette_.blocks[i])].opacity > 0;
+    }
+    for (u32 i = 0; i < kTerrainBiomeCount; ++i) {
+        VX_TRY_ASSIGN(source->palette_.biomes[i], records.biomes().intern(kTerrainBiomeNames[i]));
+    }
+    return source;
+}
+
+Result<ColumnData> ChunkSource::load(const DimensionInfo& dimension, ColumnPos at) const {
+    ColumnData data{.at = at, .chunks = {}, .heights = {}};
+    VX_TRY_ASSIGN(auto record, saves_.load_column(dimension.id, at));
+    VX_TRY_ASSIGN(auto stored, saves_.load_column_chunks(dimension.id, at));
+    std::erase_if(stored, [&](const auto& c) {
+        return !c.chunk || c.at.y * 16 < dimension.min_y || c.at.y * 16 >= dimension.max_y;
+    });
+    const bool whole = record && record->generated;
+    if (!whole && !options_.generator.empty() && dimension.id == options_.generated_dimension) {
+        GeneratedColumn column = generate_column(options_.seed, at, palette_);
+        for (std::size_t i = 0; i < column.chunks.size(); ++i) {
+            const ChunkPos p{at.x, kTerrainMinY / kChunkSize + i32(i), at.z};
+            if (p.y * 16 < dimension.min_y || p.y * 16 >= dimension.max_y) continue;
+            data.chunks.push_back({p, std::make_shared<const Chunk>(std::move(column.chunks[i]))});
+        }
+        data.made = true;
+        if (stored.empty()) {
+            data.heights.above = column.heights;
+            return data;
+        }
+        // Saved chunks win; a column is only ever saved whole, so this mends one whose record was lost.
+        for (auto& s : stored) {
+            auto same =
+                std::find_if(data.chunks.begin(), data.chunks.end(), [&](const auto& c) { return c.at == s.at; });
+            if (same != data.chunks.end())
+                same->chunk = std::move(s.chunk);
+            else
+                data.chunks.push_back(std::move(s));
+        }
+    } else {
+        data.made = data.stored = whole || !stored.empty();
+        data.chunks = std::move(stored);
+    }
+    std::sort(data.chunks.begin(), data.chunks.end(), [](const auto& a, const auto& b) { return a.at.y < b.at.y; });
+    // Light is a function of what lies around and is found anew when the column comes in, so it is never out of date.
+    for (auto& c : data.chunks) {
+        if (!c.chunk->light) continue;
+        auto copy = std::make_shared<Chunk>(*c.chunk);
+        copy->light = nullptr;
+        c.chunk = std::move(copy);
+    }
+    data.heights = heights_of(data.chunks, dimension, records_.states().light_data());
+    return data;
+}
+
+} // namespace vitrail

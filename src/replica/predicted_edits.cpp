@@ -1,0 +1,141 @@
+// The player's own edits, shown before the server answers (replica.h tells how they are reconciled).
+#include "light/relight.h"
+#include "replica/replica.h"
+
+#include <algorithm>
+
+namespace vitrail::replica {
+
+void Replica::mark(ChunkPos at, u8 what) { dirty_[at] |= what; }
+
+void Replica::mark_borders(ChunkPos at, u8 what) {
+    const u8 border = u8((what & kBlocksChanged ? kBorderBlocks : 0) | (what & kLightChanged ? kBorderLight : 0));
+    for (i32 dy = -1; dy <= 1; ++dy)
+        for (i32 dz = -1; dz <= 1; ++dz)
+            for (i32 dx = -1; dx <= 1; ++dx) {
+                const ChunkPos p{at.x + dx, at.y + dy, at.z + dz};
+                if (!(p == at) && dimension_->find(p)) mark(p, border);
+            }
+}
+
+ChunkPtr Replica::server_chunk(ChunkPos at) const {
+    const auto kept = server_chunks_.find(at);
+    return kept != server_chunks_.end() ? kept->second : dimension_->find(at);
+}
+
+void Replica::put_server_chunk(ChunkPos at, ChunkPtr chunk, u8 what) {
+    const auto kept = server_chunks_.find(at);
+    if (kept != server_chunks_.end()) {
+        kept->second = std::move(chunk);
+        unsettled_ = true; // shown, with what is still predicted on top, when this poll ends
+        return;
+    }
+    dimension_->put(at, std::move(chunk));
+    mark(at, what);
+    mark_borders(at, what);
+}
+
+ChangeSet Replica::predict(const std::vector<Edit>& edits) {
+    // Light may change up to the top and bottom of the columns around; what stood there is the server's version, unless
+    // an earlier prediction kept an older one.
+    std::unordered_map<ChunkPos, ChunkPtr> before;
+    const DimensionInfo& info = dimension_->info();
+    for (const Edit& e : edits) {
+        const ChunkPos c = chunk_of(e.at);
+        if (before.contains({c.x, info.min_y >> 4, c.z})) continue;
+        for (i32 y = info.min_y >> 4; y < info.max_y >> 4; ++y)
+            for (i32 dz = -1; dz <= 1; ++dz)
+                for (i32 dx = -1; dx <= 1; ++dx) {
+                    const ChunkPos p{c.x + dx, y, c.z + dz};
+                    before.try_emplace(p, dimension_->find(p));
+                }
+        if (const ColumnHeights* heights = dimension_->heights(column_of(c)))
+            server_heights_.try_emplace(column_of(c), *heights);
+    }
+    ChangeSet changes = apply(*dimension_, EditBatch{edits});
+    relight(*dimension_, changes);
+    auto keep = [&](ChunkPos at) {
+        const auto stood = before.find(at);
+        if (stood != before.end() && stood->second) server_chunks_.try_emplace(at, stood->second);
+    };
+    for (ChunkPos at : changes.block_chunks) keep(at);
+    for (ChunkPos at : changes.light_chunks) keep(at);
+    return changes;
+}
+
+void Replica::settle() {
+    unsettled_ = false;
+    std::unordered_map<ChunkPos, ChunkPtr> shown;
+    for (const auto& [at, chunk] : server_chunks_) {
+        shown.emplace(at, dimension_->find(at));
+        dimension_->put(at, chunk);
+    }
+    for (const auto& [at, heights] : server_heights_) dimension_->put_heights(at, heights);
+    server_chunks_.clear();
+    server_heights_.clear();
+    for (const PendingEdit& pending : pending_) {
+        const ChangeSet changes = predict(pending.edits);
+        // Sections that this prediction reaches for the first time have no entry in `shown`.
+        for (ChunkPos at : changes.block_chunks)
+            if (!shown.contains(at)) mark(at, kBlocksChanged), mark_borders(at, kBlocksChanged);
+        for (ChunkPos at : changes.light_chunks)
+            if (!shown.contains(at)) mark(at, kLightChanged), mark_borders(at, kLightChanged);
+    }
+    for (const auto& [at, before] : shown) {
+        const ChunkPtr now = dimension_->find(at);
+        if (now == before || !now) continue;
+        u8 what = 0;
+        if (!before || !(before->blocks == now->blocks)) what |= kBlocksChanged;
+        if (!before || (before->light != now->light && !(*before->light == *now->light))) what |= kLightChanged;
+        if (!what) continue;
+        mark(at, what);
+        mark_borders(at, what);
+    }
+}
+
+bool Replica::is_guess(BlockPos at) const {
+    for (const PendingEdit& pending : pending_)
+        for (const Edit& e : pending.edits)
+            if (e.at == at) return true;
+    return false;
+}
+
+std::vector<Edit> Replica::guess_laid_bare(const std::vector<Edit>& edits) const {
+    std::vector<Edit> guesses;
+    auto opaque = [&](StateId id) { return (states_->flags(id) & kOpaqueCube) != 0; };
+    for (const Edit& e : edits) {
+        const StateId before = dimension_->state_at(e.at);
+        if (opaque(e.state) || !opaque(before)) continue;
+        for (u32 f = 0; f < 6; ++f) {
+            const BlockPos n = neighbor(e.at, Face(f));
+            if (dimension_->state_at(n) != StateId::hidden) continue;
+            StateId guess = before;
+            for (u32 g = 0; g < 6 && guess == StateId::hidden; ++g) {
+                const StateId near = dimension_->state_at(neighbor(n, Face(g)));
+                if (opaque(near)) guess = near;
+            }
+            if (guess != StateId::hidden) guesses.push_back({n, guess});
+        }
+    }
+    return guesses;
+}
+
+Result<u32> Replica::request(net::EditRequest message, std::vector<Edit> edits) {
+    const u32 sequence = message.sequence = next_sequence_++;
+    message.yaw = body_.yaw, message.pitch = body_.pitch;
+    message.after_command = next_command_ - 1;
+    // What is predicted itself has no state that the server must agree to.
+    const BlockPos at = net::from_wire(message.at);
+    if (!is_guess(at)) message.target = states_->info(dimension_->state_at(at)).state.to_string();
+    send_commands(); // the server judges from where the player stands now
+    send(net::Channel::control, message);
+    const std::vector<Edit> guesses = guess_laid_bare(edits);
+    edits.insert(edits.end(), guesses.begin(), guesses.end());
+    pending_.push_back({sequence, std::move(edits)});
+    const ChangeSet changes = predict(pending_.back().edits);
+    for (ChunkPos p : changes.block_chunks) mark(p, kBlocksChanged), mark_borders(p, kBlocksChanged);
+    for (ChunkPos p : changes.light_chunks) mark(p, kLightChanged), mark_borders(p, kLightChanged);
+    return sequence;
+}
+
+} // namespace vitrail::replica

@@ -1,0 +1,202 @@
+#include "server/persistence.h"
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "net/registry_codec.h"
+#include "server/interest.h"
+
+#include <fmt/format.h>
+#include <random>
+
+namespace vitrail::server {
+
+namespace {
+
+constexpr float kDegrees = 57.29577951f; // a radian
+
+
+// A new world: its level record and dimensions, durable before anyone plays.
+Result<LevelRecord> make_level(WorldRecords& records, const ServerOptions& options, u64 content_hash) {
+    LevelRecord level;
+    level.name = options.name;
+    level.generator = options.generator;
+    level.generator_version = ChunkSource::generator_version(options.generator);
+    level.content_hash = content_hash;
+    level.time_ticks = 1000; // morning
+    if (options.seed) level.seed = *options.seed;
+    else {
+        std::random_device device;
+        level.seed = u64(device()) << 32 | device();
+    }
+    level.spawn.at = options.generator.empty() ? BlockPos{0, 64, 0} : spawn_point(level.seed);
+    SaveBatch batch;
+    batch.level = level;
+    batch.dimensions.push_back(DimensionInfo{});
+    VX_TRY(records.save(batch));
+    return level;
+}
+
+} // namespace
+
+Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shared_ptr<const BlockRegistry> registry) {
+    if (!ChunkSource::known_generator(options.generator))
+        return fail(ErrorCode::invalid_argument, fmt::format("unknown terrain generator '{}'", options.generator));
+    auto world = std::make_unique<ServerWorld>();
+    world->registry = registry;
+    world->registry_bytes = net::encode_registry(*registry);
+    world->content_hash = net::registry_hash(*registry);
+    OpenOptions open;
+    open.create = options.create;
+    VX_TRY_ASSIGN(world->records, WorldRecords::open(options.folder, registry, open));
+    VX_TRY_ASSIGN(auto level, world->records->load_level());
+    if (level) world->level = std::move(*level);
+    else {
+        VX_TRY_ASSIGN(world->level, make_level(*world->records, options, world->content_hash));
+    }
+    if (world->level.content_hash != world->content_hash) {
+        world->level.content_hash = world->content_hash;
+        world->level_dirty = true;
+    }
+    VX_TRY_ASSIGN(auto infos, world->records->load_dimensions());
+    if (infos.empty()) infos.push_back(DimensionInfo{});
+    for (const DimensionInfo& info : infos) {
+        world->dimensions.emplace(info.id, ServerDimension(Dimension(info, world->records->states_ptr())));
+    }
+
+    SaveQueueOptions save_options;
+    save_options.group_ms = options.save_group_ms;
+    save_options.on_trouble = [](const std::optional<Error>& error) {
+        if (error) log_error(fmt::format("saving the world fails, trying again: {}", error->message));
+        else log_info("saving the world works again");
+    };
+    world->saves = std::make_unique<SaveQueue>(*world->records, save_options);
+    VX_TRY_ASSIGN(world->source, ChunkSource::create(*world->records, *world->saves,
+                                                     {world->level.seed, world->level.generator, DimensionId::overworld}));
+    world->pool = std::make_unique<ThreadPool>(options.threads);
+    world->options = std::move(options);
+    return world;
+}
+
+PlayerRecord player_record(const Session& session) {
+    PlayerRecord record;
+    record.name = session.name;
+    record.at = session.body.feet;
+    record.yaw = session.body.yaw * kDegrees, record.pitch = session.body.pitch * kDegrees;
+    record.hotbar = session.hotbar;
+    record.hotbar_slot = u8(session.hotbar_selected);
+    record.flying = session.body.flying;
+    return record;
+}
+
+Result<> restore_player(ServerWorld& world, Session& session) {
+    std::optional<PlayerRecord> record;
+    if (const auto left = world.players_left.find(session.name); left != world.players_left.end()) record = left->second;
+    else {
+        VX_TRY_ASSIGN(record, world.records->load_player(session.name));
+    }
+    session.body = {};
+    if (record && world.dimensions.contains(record->at.dimension)) {
+        session.body.feet = {record->at.dimension, clamp_to_world(record->at.at)};
+        session.body.flying = record->flying;
+        session.body.yaw = record->yaw / kDegrees, session.body.pitch = record->pitch / kDegrees;
+        session.hotbar = record->hotbar;
+        session.hotbar_selected = record->hotbar_slot;
+        return {};
+    }
+    session.body.feet.dimension =
+        world.dimensions.contains(world.level.spawn.dimension) ? world.level.spawn.dimension : world.dimensions.begin()->first;
+    session.body.feet.at = corner_of(world.level.spawn.at);
+    session.body.feet.at.x += kFixedOne / 2, session.body.feet.at.z += kFixedOne / 2;
+    session.body.yaw = world.level.spawn_yaw / kDegrees;
+    session.hotbar = world.registry->hotbar;
+    if (session.hotbar.size() > 16) session.hotbar.resize(16);
+    session.player_dirty = true;
+    return {};
+}
+
+namespace {
+
+// All that waits, moved into one batch. `everything`: players and level whether they changed or not.
+SaveBatch gather(ServerWorld& world, bool everything) {
+    SaveBatch batch;
+    for (auto& [id, dimension] : world.dimensions) {
+        for (ColumnPos at : dimension.dirty_columns) {
+            auto found = dimension.columns.find(at);
+            if (found == dimension.columns.end()) continue;
+            Column& column = found->second;
+            const ColumnHeights* heights = dimension.dimension.heights(at);
+            ColumnRecord record;
+            if (heights) record.heights = *heights;
+            record.generated = column.made;
+            batch.columns.push_back({id, at, record});
+            if (column.stored) continue;
+            // The first change in a generated column: from now on the store has all of it.
+            const DimensionInfo& info = dimension.dimension.info();
+            for (i32 y = info.min_y >> 4; y < info.max_y >> 4; ++y) {
+                const ChunkPos p{at.x, y, at.z};
+                if (dimension.dirty_chunks.contains(p)) continue;
+                ChunkPtr chunk = dimension.dimension.find(p);
+                if (!chunk) continue;
+                const bool air = chunk->blocks.uniform() && chunk->blocks.palette()[0] == StateId::air;
+                if (!air || !chunk->entities.empty()) batch.chunks.push_back({id, p, std::move(chunk)});
+            }
+            column.stored = true;
+        }
+        for (ChunkPos at : dimension.dirty_chunks)
+            if (ChunkPtr chunk = dimension.dimension.find(at)) batch.chunks.push_back({id, at, std::move(chunk)});
+        dimension.dirty_columns.clear();
+        dimension.dirty_chunks.clear();
+    }
+    for (auto& session : world.sessions) {
+        if (!session->joined || (!everything && !session->player_dirty && session->unkept_sequence == 0)) continue;
+        batch.players.push_back(player_record(*session));
+        session->player_dirty = false;
+    }
+    if (everything || world.level_dirty) {
+        batch.level = world.level;
+        world.level_dirty = false;
+    }
+    return batch;
+}
+
+} // namespace
+
+void save_changes(ServerWorld& world) {
+    bool any = world.level_dirty;
+    for (auto& [id, dimension] : world.dimensions)
+        any |= !dimension.dirty_chunks.empty() || !dimension.dirty_columns.empty();
+    for (auto& session : world.sessions) any |= session->player_dirty || session->unkept_sequence != 0;
+    if (!any) return;
+    std::vector<std::pair<u32, u32>> kept;
+    SaveBatch batch = gather(world, false);
+    for (auto& session : world.sessions) {
+        if (session->unkept_sequence == 0) continue;
+        kept.emplace_back(session->id, session->unkept_sequence);
+        session->unkept_sequence = 0;
+    }
+    world.saves->submit(std::move(batch), [mailbox = world.mailbox, kept = std::move(kept)] {
+        if (kept.empty()) return;
+        std::lock_guard lock(mailbox->mutex);
+        mailbox->kept.insert(mailbox->kept.end(), kept.begin(), kept.end());
+    });
+}
+
+Result<> save_all(ServerWorld& world) {
+    save_changes(world);
+    world.saves->submit(gather(world, true));
+    return world.saves->flush();
+}
+
+void tell_kept(ServerWorld& world) {
+    std::vector<std::pair<u32, u32>> kept;
+    {
+        std::lock_guard lock(world.mailbox->mutex);
+        kept.swap(world.mailbox->kept);
+    }
+    for (const auto& [id, sequence] : kept)
+        for (auto& session : world.sessions)
+            if (session->id == id)
+                send(*session, net::Channel::world, net::EditResult{sequence, net::EditOutcome::kept, {}});
+}
+
+} // namespace vitrail::server

@@ -1,0 +1,57 @@
+#include "server/tick.h"
+
+#include "server/chunk_loading.h"
+#include "server/edits.h"
+#include "server/interest.h"
+#include "server/persistence.h"
+
+namespace vitrail::server {
+
+namespace {
+
+constexpr float kPublishBudgetMs = 25;
+constexpr u64 kUnloadTicks = 20, kTimeTicks = 100, kPlayerSaveTicks = 200;
+
+void tell_results(ServerWorld& world) {
+    for (auto& session : world.sessions) {
+        for (const net::EditResult& result : session->results) send(*session, net::Channel::world, result);
+        session->results.clear();
+    }
+}
+
+void advance_time(ServerWorld& world) {
+    ++world.level.time_ticks;
+    if (world.tick % kPlayerSaveTicks == 0) {
+        world.level_dirty = !world.sessions.empty();
+        for (auto& session : world.sessions) session->player_dirty |= session->joined;
+    }
+    if (world.tick % kTimeTicks != 0) return;
+    for (auto& session : world.sessions)
+        if (session->joined)
+            send(*session, net::Channel::control, net::TimeOfDay{world.tick, u32(world.level.time_ticks % 24000)});
+}
+
+} // namespace
+
+void run_tick(ServerWorld& world) {
+    ++world.tick;
+    hear_sessions(world);
+    move_players(world);
+    run_edits(world);
+    request_columns(world);
+    publish_columns(world, kPublishBudgetMs);
+    tell_light_changes(world);
+    tell_results(world);
+    for (auto& session : world.sessions) {
+        if (!session->joined || session->gone) continue;
+        update_interest(world, *session);
+        send_sections(world, *session);
+    }
+    advance_time(world);
+    save_changes(world);
+    tell_kept(world);
+    remove_gone_sessions(world);
+    if (world.tick % kUnloadTicks == 0) unload_columns(world);
+}
+
+} // namespace vitrail::server

@@ -1,0 +1,1 @@
+target_link_libraries(test_replica PRIVATE vitrail_server vitrail_script)

@@ -1,0 +1,1 @@
+target_link_libraries(test_server PRIVATE vitrail_replica vitrail_script)
