@@ -18,7 +18,7 @@ struct SaveQueueOptions {
     u32 retry_ms = 1000;                 // after a failed commit
     // Called on the writer thread when saving begins to fail (once) with the error, and with nothing when it works
     // again.
-    std::function<void(const std::optional<Error>&)> on_trouble;
+    std::function<void(const std::optional<Error>&)> on_trouble = {};
 };
 
 class SaveQueue {

@@ -172,17 +172,17 @@ Result<> SqliteStore::open(const std::string& folder, const OpenOptions& options
         if (ec) return fail(ErrorCode::io, fmt::format("world {}: cannot make the folder: {}", folder, ec.message()));
         VX_TRY_ASSIGN(lock_, FolderLock::take(folder));
     }
-    VX_TRY_ASSIGN(writer_, connect(true));
-    ::sqlite3* db = writer_->db.get();
-    auto format = format_of(db);
+    auto look = [&]() -> Result<u32> {
+        VX_TRY_ASSIGN(writer_, connect(true));
+        return format_of(writer_->db.get());
+    };
+    auto format = look();
     if (!format && options.read_only && format.error().code == ErrorCode::io) {
         // No write access for the log's index. Without a log the file alone is the whole world.
         const auto log = fs::file_size(path_ + "-wal", ec);
         if (ec || log == 0) {
             immutable_ = true;
-            VX_TRY_ASSIGN(writer_, connect(true));
-            db = writer_->db.get();
-            format = format_of(db);
+            format = look();
         }
     }
     if (!format) return tl::unexpected(format.error());
@@ -190,6 +190,7 @@ Result<> SqliteStore::open(const std::string& folder, const OpenOptions& options
         if (*format == 0) return fail(ErrorCode::not_found, fmt::format("no world in {}", folder));
         return {};
     }
+    ::sqlite3* db = writer_->db.get();
     if (*format == 0) // only before the first table
         VX_TRY(sqlite::run(db, fmt::format("PRAGMA page_size={}", options.page_bytes), folder, "set up its store"));
     VX_TRY_ASSIGN(const std::string mode, sqlite::text_of(db, "PRAGMA journal_mode=WAL", folder));

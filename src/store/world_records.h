@@ -27,32 +27,32 @@
 namespace vitrail {
 
 struct LevelRecord {
-    std::string name;
+    std::string name{};
     u64 seed = 0;
-    Located<BlockPos> spawn;
-    float spawn_yaw = 0;   // degrees
-    u64 time_ticks = 0;    // since the world began; a day has 24000
-    std::string generator; // "" : none, never-made chunks stay absent
+    Located<BlockPos> spawn{};
+    float spawn_yaw = 0;     // degrees
+    u64 time_ticks = 0;      // since the world began; a day has 24000
+    std::string generator{}; // "" : none, never-made chunks stay absent
     u32 generator_version = 0;
     u64 content_hash = 0; // of the content it was last played with
-    std::string source;   // where it was imported from, for people
+    std::string source{}; // where it was imported from, for people
 };
 
 struct ColumnRecord {
-    ColumnHeights heights;
+    ColumnHeights heights{};
     bool generated = false; // every chunk of the column that has anything in it is stored: absent ones are air
     bool lit = false;       // sky and block light of the stored chunks are settled
     u32 stage = 0;          // the generator's own mark
 };
 
 struct PlayerRecord {
-    std::string name;
-    Located<WorldPos> at;
-    float yaw = 0, pitch = 0;        // degrees
-    std::vector<std::string> hotbar; // block state texts
+    std::string name{};
+    Located<WorldPos> at{};
+    float yaw = 0, pitch = 0;          // degrees
+    std::vector<std::string> hotbar{}; // block state texts
     u8 hotbar_slot = 0;
     bool flying = false;
-    Bytes extra; // rules' own additions, opaque here
+    Bytes extra{}; // rules' own additions, opaque here
 };
 
 struct SaveBatch {
