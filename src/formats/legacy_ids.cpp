@@ -4,9 +4,9 @@
 //   redstone wire: two bits each for north, east, south, west: 0 none, 1 side, 2 up
 //   door, lower half: 1 known, 2 hinge right, 4 powered; upper half: 1 known, facing meta << 1, 8 open
 //   double plant, upper half: 1 + kind;  grass, podzol, mycelium: 1 snowy;  fence gate: 1 in a wall
-//   chest: 1 left, 2 right;  repeater: 1 locked;  vine: 1 up;  stem: 1 + direction of its fruit;  portal: 1 x, 2 z
-//   bed, banner: 1 + color;  head: kind | rotation << 3 | 128;  flower pot: 1 + plant;  note block: 1 | note << 1 | 64
-//   powered
+//   chest: 1 left, 2 right, (1 + direction from north) << 2 where its meta does not say where it looks;  repeater: 1
+//   locked;  vine: 1 up;  stem: 1 + direction of its fruit;  portal: 1 x, 2 z bed, banner: 1 + color;  head: kind |
+//   rotation << 3 | 128;  flower pot: 1 + plant;  note block: 1 | note << 1 | 64 powered
 #include "formats/legacy_ids.h"
 
 #include <array>
@@ -24,6 +24,7 @@ constexpr std::array<Name, 16> kColors = {"white", "orange", "magenta",    "ligh
                                           "brown", "green",  "red",        "black"};
 constexpr std::array<Name, 6> kWoods = {"oak", "spruce", "birch", "jungle", "acacia", "dark_oak"};
 constexpr std::array<Name, 8> kFacing6 = {"down", "up", "north", "south", "west", "east", "down", "down"};
+constexpr std::array<Name, 4> kCompass = {"north", "east", "south", "west"};
 constexpr std::array<Name, 4> kHorizontal = {"south", "west", "north", "east"};
 constexpr std::array<Name, 4> kStairsFacing = {"east", "west", "south", "north"};
 constexpr std::array<Name, 4> kDoorFacing = {"east", "south", "west", "north"};
@@ -327,7 +328,8 @@ bool Maker::make_rest() {
     case 51: name("fire").number("age", meta).sides(true, false); break;
     case 54: case 146:
         name(id == 54 ? "chest" : "trapped_chest").facing_2to5();
-        set("type", bits == 1 ? "left" : bits == 2 ? "right" : "single");
+        if (bits >> 2) facing(of(kCompass, (bits >> 2) - 1u));
+        set("type", (bits & 3) == 1 ? "left" : (bits & 3) == 2 ? "right" : "single");
         break;
     case 55: {
         static constexpr std::array<Name, 4> kWire = {"none", "side", "up", "none"};
