@@ -1,5 +1,5 @@
-// A seeded landscape for tests and benchmarks of the renderer alone: hills, a lake, trees, lamps, glass. It brings its own
-// plain voxel grid, light flood and greedy mesher (slow and simple), so that it needs neither content nor world.
+// A seeded landscape for tests and benchmarks of the renderer alone: hills, a lake, trees, lamps, glass. It brings its
+// own plain voxel grid, light flood and greedy mesher (slow and simple), so that it needs neither content nor world.
 #pragma once
 
 #include "base/rng.h"
@@ -18,12 +18,15 @@ public:
     enum Block : u8 { air, stone, dirt, grass, sand, water, log, leaves, glowstone, glass, planks, count };
 
     // radius in chunks around the origin; height 96 blocks from y = 0; the lake's surface lies at y = 40.
-    explicit SampleScene(i32 radius_chunks, bool trees = true) : radius_(radius_chunks), side_((2 * radius_chunks + 1) * 16) {
+    explicit SampleScene(i32 radius_chunks, bool trees = true)
+        : radius_(radius_chunks)
+        , side_((2 * radius_chunks + 1) * 16) {
         registry.content_roots = {std::string(VITRAIL_SOURCE_DIR) + "/content/base"};
         cells_.resize(std::size_t(side_) * side_ * kHeight);
         light_.resize(cells_.size());
         for (i32 z = 0; z < side_; ++z)
-            for (i32 x = 0; x < side_; ++x) fill_column(x, z);
+            for (i32 x = 0; x < side_; ++x)
+                fill_column(x, z);
         if (trees) plant();
         build_things();
     }
@@ -77,21 +80,27 @@ private:
         const float ix = std::floor(x), iz = std::floor(z);
         float fx = x - ix, fz = z - iz;
         fx = fx * fx * (3 - 2 * fx), fz = fz * fz * (3 - 2 * fz);
-        auto corner = [&](i32 dx, i32 dz) { return random_unit({.seed = 5, .purpose = octave}, i32(ix) + dx, 0, i32(iz) + dz); };
+        auto corner = [&](i32 dx, i32 dz) {
+            return random_unit({.seed = 5, .purpose = octave}, i32(ix) + dx, 0, i32(iz) + dz);
+        };
         return lerp(lerp(corner(0, 0), corner(1, 0), fx), lerp(corner(0, 1), corner(1, 1), fx), fz);
     }
     void fill_column(i32 gx, i32 gz) {
         const float x = float(gx - radius_ * 16), z = float(gz - radius_ * 16);
         float h = 0, amplitude = 26, scale = 1.0f / 96;
-        for (u32 o = 0; o < 5; ++o, amplitude *= 0.48f, scale *= 2.1f) h += (noise(x * scale, z * scale, o) - 0.5f) * 2 * amplitude;
+        for (u32 o = 0; o < 5; ++o, amplitude *= 0.48f, scale *= 2.1f)
+            h += (noise(x * scale, z * scale, o) - 0.5f) * 2 * amplitude;
         const i32 top = std::clamp(i32(44 + h * 0.85f), 4, kHeight - 12);
         for (i32 y = 0; y <= top; ++y) {
             Block b = y < top - 3 ? stone : dirt;
-            if (y == top) b = top <= kSea ? sand : top > 70 ? stone : grass;
-            else if (y > top - 3 && top <= kSea) b = sand;
+            if (y == top)
+                b = top <= kSea ? sand : top > 70 ? stone : grass;
+            else if (y > top - 3 && top <= kSea)
+                b = sand;
             cells_[index(gx, y, gz)] = b;
         }
-        for (i32 y = top + 1; y <= kSea - 1; ++y) cells_[index(gx, y, gz)] = water;
+        for (i32 y = top + 1; y <= kSea - 1; ++y)
+            cells_[index(gx, y, gz)] = water;
     }
     void plant() {
         const i32 r = radius_ * 16;
@@ -105,10 +114,13 @@ private:
                     for (i32 dz = -2; dz <= 2; ++dz)
                         for (i32 dx = -2; dx <= 2; ++dx) {
                             const i32 reach = dy > tall - 1 ? 1 : 2;
-                            if (std::abs(dx) > reach || std::abs(dz) > reach || (std::abs(dx) == reach && std::abs(dz) == reach && (dy & 1))) continue;
+                            if (std::abs(dx) > reach || std::abs(dz) > reach ||
+                                (std::abs(dx) == reach && std::abs(dz) == reach && (dy & 1)))
+                                continue;
                             if (at(x + dx, y + dy, z + dz) == air) set(x + dx, y + dy, z + dz, leaves);
                         }
-                for (i32 dy = 0; dy < tall; ++dy) set(x, y + dy, z, log);
+                for (i32 dy = 0; dy < tall; ++dy)
+                    set(x, y + dy, z, log);
             }
     }
     void build_things() {
@@ -133,8 +145,10 @@ private:
             for (i32 y = kHeight - 1; y >= 0; --y) {
                 const std::size_t c = std::size_t(y) * layer + column;
                 const Block b = Block(cells_[c]);
-                if (opaque(b)) level = 0;
-                else if (b == leaves || b == water) level = level > 1 ? level - 1 : 0;
+                if (opaque(b))
+                    level = 0;
+                else if (b == leaves || b == water)
+                    level = level > 1 ? level - 1 : 0;
                 light_[c] = u8(level);
             }
         }
@@ -153,8 +167,10 @@ private:
                 // Only cells beside darker ones start.
                 const i32 x = i32(c) % side_, z = i32(c) / side_ % side_, y = i32(c / u32(layer));
                 const u32 l = light_[c] >> shift & 15;
-                if ((x > 0 && (light_[c - 1] >> shift & 15) + 1 < l) || (x + 1 < side_ && (light_[c + 1] >> shift & 15) + 1 < l) ||
-                    (z > 0 && (light_[c - u32(side_)] >> shift & 15) + 1 < l) || (z + 1 < side_ && (light_[c + u32(side_)] >> shift & 15) + 1 < l) ||
+                if ((x > 0 && (light_[c - 1] >> shift & 15) + 1 < l) ||
+                    (x + 1 < side_ && (light_[c + 1] >> shift & 15) + 1 < l) ||
+                    (z > 0 && (light_[c - u32(side_)] >> shift & 15) + 1 < l) ||
+                    (z + 1 < side_ && (light_[c + u32(side_)] >> shift & 15) + 1 < l) ||
                     (y > 0 && (light_[c - u32(layer)] >> shift & 15) + 1 < l) || lamps)
                     now.push_back(c);
             }
@@ -216,13 +232,17 @@ private:
     };
     static const Look& look_of(Block b) {
         using enum render::QuadPass;
-        static const Look looks[count] = {
-            {"", "", "", TintKind::none, opaque}, {"stone", "stone", "stone", TintKind::none, opaque},
-            {"dirt", "dirt", "dirt", TintKind::none, opaque}, {"grass_block_side", "grass_block_top", "dirt", TintKind::grass, opaque},
-            {"sand", "sand", "sand", TintKind::none, opaque}, {"water_still", "water_still", "water_still", TintKind::water, translucent},
-            {"oak_log", "oak_log_top", "oak_log_top", TintKind::none, opaque}, {"oak_leaves", "oak_leaves", "oak_leaves", TintKind::foliage, cutout},
-            {"glowstone", "glowstone", "glowstone", TintKind::none, opaque}, {"glass", "glass", "glass", TintKind::none, translucent},
-            {"oak_planks", "oak_planks", "oak_planks", TintKind::none, opaque}};
+        static const Look looks[count] = {{"", "", "", TintKind::none, opaque},
+                                          {"stone", "stone", "stone", TintKind::none, opaque},
+                                          {"dirt", "dirt", "dirt", TintKind::none, opaque},
+                                          {"grass_block_side", "grass_block_top", "dirt", TintKind::grass, opaque},
+                                          {"sand", "sand", "sand", TintKind::none, opaque},
+                                          {"water_still", "water_still", "water_still", TintKind::water, translucent},
+                                          {"oak_log", "oak_log_top", "oak_log_top", TintKind::none, opaque},
+                                          {"oak_leaves", "oak_leaves", "oak_leaves", TintKind::foliage, cutout},
+                                          {"glowstone", "glowstone", "glowstone", TintKind::none, opaque},
+                                          {"glass", "glass", "glass", TintKind::none, translucent},
+                                          {"oak_planks", "oak_planks", "oak_planks", TintKind::none, opaque}};
         return looks[b];
     }
     bool shown(Block b, Block other) const {
@@ -233,7 +253,10 @@ private:
         i32 p[3] = {x, y, z};
         p[axis] += side;
         auto solid = [&](i32 du, i32 dv) {
-            return opaque(grid(p[0] + u[0] * du + v[0] * dv, p[1] + u[1] * du + v[1] * dv, p[2] + u[2] * du + v[2] * dv)) ? 1u : 0u;
+            return opaque(
+                       grid(p[0] + u[0] * du + v[0] * dv, p[1] + u[1] * du + v[1] * dv, p[2] + u[2] * du + v[2] * dv))
+                       ? 1u
+                       : 0u;
         };
         u8 out = 0;
         const i32 corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -249,12 +272,14 @@ private:
         for (u32 f = 0; f < 6; ++f) {
             const u32 axis = f >> 1;
             const i32 side = f & 1 ? 1 : -1;
-            const i32 u[3] = {axis == 0 ? 0 : 1, 0, axis == 0 ? 1 : 0}, v[3] = {0, axis == 1 ? 0 : 1, axis == 1 ? 1 : 0};
+            const i32 u[3] = {axis == 0 ? 0 : 1, 0, axis == 0 ? 1 : 0},
+                      v[3] = {0, axis == 1 ? 0 : 1, axis == 1 ? 1 : 0};
             for (i32 d = 0; d < 16; ++d) {
                 u32 keys[16][16] = {};
                 for (i32 j = 0; j < 16; ++j)
                     for (i32 i = 0; i < 16; ++i) {
-                        i32 p[3] = {cx * 16 + u[0] * i + v[0] * j, cy * 16 + u[1] * i + v[1] * j, cz * 16 + u[2] * i + v[2] * j};
+                        i32 p[3] = {cx * 16 + u[0] * i + v[0] * j, cy * 16 + u[1] * i + v[1] * j,
+                                    cz * 16 + u[2] * i + v[2] * j};
                         p[axis] += d;
                         const Block b = grid(p[0], p[1], p[2]);
                         i32 q[3] = {p[0], p[1], p[2]};
@@ -270,24 +295,28 @@ private:
                         const bool merge_u = (ao & 3) == (ao >> 2 & 3) && (ao >> 4 & 3) == ao >> 6;
                         const bool merge_v = (ao & 3) == ao >> 6 && (ao >> 2 & 3) == (ao >> 4 & 3);
                         i32 w = 1, h = 1;
-                        while (merge_u && i + w < 16 && keys[j][i + w] == key) ++w;
+                        while (merge_u && i + w < 16 && keys[j][i + w] == key)
+                            ++w;
                         auto row_equal = [&](i32 row) {
                             for (i32 k = 0; k < w; ++k)
                                 if (keys[row][i + k] != key) return false;
                             return true;
                         };
-                        while (merge_v && j + h < 16 && row_equal(j + h)) ++h;
+                        while (merge_v && j + h < 16 && row_equal(j + h))
+                            ++h;
                         for (i32 b = 0; b < h; ++b)
-                            for (i32 a = 0; a < w; ++a) keys[j + b][i + a] = 0;
+                            for (i32 a = 0; a < w; ++a)
+                                keys[j + b][i + a] = 0;
                         const Block block = Block(key >> 8 & 255);
                         const Look& look = look_of(block);
                         i32 p[3] = {u[0] * i + v[0] * j, u[1] * i + v[1] * j, u[2] * i + v[2] * j};
                         p[axis] += d;
                         const char* texture = f == 3 ? look.top : f == 2 ? look.bottom : look.side;
-                        const TintKind tint = look.top_tint == TintKind::grass && f != 3 ? TintKind::none : look.top_tint;
-                        groups[render::SectionMesh::group(look.pass, f)].push_back(
-                            render::Quad::cube({p[0], p[1], p[2]}, u32(w), u32(h), Face(f), ao, registry.texture_id(texture), tint, 0,
-                                               block == water ? render::kQuadLiquid : 0));
+                        const TintKind tint =
+                            look.top_tint == TintKind::grass && f != 3 ? TintKind::none : look.top_tint;
+                        groups[render::SectionMesh::group(look.pass, f)].push_back(render::Quad::cube(
+                            {p[0], p[1], p[2]}, u32(w), u32(h), Face(f), ao, registry.texture_id(texture), tint, 0,
+                            block == water ? render::kQuadLiquid : 0));
                     }
             }
         }
@@ -300,7 +329,8 @@ private:
         bool solid = true;
         for (i32 y = 0; y < 16 && solid; ++y)
             for (i32 z = 0; z < 16 && solid; ++z)
-                for (i32 x = 0; x < 16 && solid; ++x) solid = opaque(grid(cx * 16 + x, cy * 16 + y, cz * 16 + z));
+                for (i32 x = 0; x < 16 && solid; ++x)
+                    solid = opaque(grid(cx * 16 + x, cy * 16 + y, cz * 16 + z));
         mesh.connections = solid ? 0 : (u64(1) << 36) - 1;
     }
 
@@ -314,7 +344,8 @@ private:
 
 namespace vitrail::bench {
 
-inline scene::FrameView SampleScene::frame(u32 width, u32 height, WorldPos eye, float yaw_deg, float pitch_deg, i32 chunks) {
+inline scene::FrameView SampleScene::frame(u32 width, u32 height, WorldPos eye, float yaw_deg, float pitch_deg,
+                                           i32 chunks) {
     scene::FrameView frame;
     frame.width = width, frame.height = height;
     frame.sky = scene::sky_at(6000);

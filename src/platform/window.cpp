@@ -1,6 +1,7 @@
 #include "platform/window.h"
 
 #include <SDL.h>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace vitrail::platform {
@@ -18,6 +19,10 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return no_window("no display for a window");
     std::unique_ptr<Window> made(new Window);
     made->sdl_started_ = true;
+    // SDL falls back to drivers that show nothing; nobody could see that window unless he asked for it.
+    const std::string driver = SDL_GetCurrentVideoDriver();
+    if ((driver == "offscreen" || driver == "dummy" || driver == "evdev") && !std::getenv("SDL_VIDEODRIVER"))
+        return fail(ErrorCode::not_found, "no display for a window (DISPLAY and WAYLAND_DISPLAY are not set or do not answer)");
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);

@@ -15,12 +15,14 @@ Frustum make_frustum(const scene::View& view, float aspect) {
         n = normalized(n);
         return Vec4{n.x, n.y, n.z, 0};
     };
-    return {{plane(right + forward * s), plane(forward * s - right), plane(up + forward * t), plane(forward * t - up), plane(forward)}};
+    return {{plane(right + forward * s), plane(forward * s - right), plane(up + forward * t), plane(forward * t - up),
+             plane(forward)}};
 }
 
 bool box_in_frustum(const Frustum& frustum, Vec3 min, Vec3 max) {
     for (const Vec4& p : frustum.planes) {
-        const float far = p.x * (p.x > 0 ? max.x : min.x) + p.y * (p.y > 0 ? max.y : min.y) + p.z * (p.z > 0 ? max.z : min.z);
+        const float far =
+            p.x * (p.x > 0 ? max.x : min.x) + p.y * (p.y > 0 ? max.y : min.y) + p.z * (p.z > 0 ? max.z : min.z);
         if (far + p.w < 0) return false;
     }
     return true;

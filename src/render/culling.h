@@ -10,8 +10,8 @@ namespace vitrail::render {
 
 struct VisibleSection {
     Section* section = nullptr;
-    IVec3 offset;        // blocks from the eye's block to the section's least corner
-    u64 distance2 = 0;   // of centers, doubled coordinates: exact, so that the order is the same everywhere
+    IVec3 offset;      // blocks from the eye's block to the section's least corner
+    u64 distance2 = 0; // of centers, doubled coordinates: exact, so that the order is the same everywhere
 };
 
 // Camera-relative planes n.p + d >= 0 inside: left, right, bottom, top, near. No far plane.

@@ -6,13 +6,14 @@ namespace vitrail::render {
 
 void DrawList::clear() {
     records.clear();
-    for (auto& list : commands) list.clear();
+    for (auto& list : commands)
+        list.clear();
     quads = 0;
 }
 
 u32 facing_directions(IVec3 o) {
-    // -x faces lie at x = o .. o + 15 and look at eyes below: some can where the eye's block (which reaches to 1) starts
-    // below the last; +x faces lie at o + 1 .. o + 16.
+    // -x faces lie at x = o .. o + 15 and look at eyes below: some can where the eye's block (which reaches to 1)
+    // starts below the last; +x faces lie at o + 1 .. o + 16.
     const i32 at[3] = {o.x, o.y, o.z};
     u32 mask = 1u << 6;
     for (u32 axis = 0; axis < 3; ++axis) {
@@ -62,8 +63,8 @@ void build_draw_list(const std::vector<VisibleSection>& visible, bool two_sided_
             if (end > start) push(cubes, s.first_quad + start, end - start, record, out.quads);
             const u32 g = SectionMesh::group(pass, 6);
             if (s.first[g + 1] > s.first[g])
-                push(out.commands[u32(cutout ? DrawKind::cutout_models : DrawKind::opaque_models)], s.first_quad + s.first[g],
-                     s.first[g + 1] - s.first[g], record, out.quads);
+                push(out.commands[u32(cutout ? DrawKind::cutout_models : DrawKind::opaque_models)],
+                     s.first_quad + s.first[g], s.first[g + 1] - s.first[g], record, out.quads);
         }
     }
     // Back to front, all directions in their sorted order: depth does not hide what translucent faces let through.
@@ -71,7 +72,9 @@ void build_draw_list(const std::vector<VisibleSection>& visible, bool two_sided_
     for (u32 i = u32(visible.size()); i-- > 0;) {
         const Section& s = *visible[i].section;
         const u32 count = s.group_size(QuadPass::translucent);
-        if (count) push(translucent, s.first_quad + s.first[SectionMesh::group(QuadPass::translucent, 0)], count, i, out.quads);
+        if (count)
+            push(translucent, s.first_quad + s.first[SectionMesh::group(QuadPass::translucent, 0)], count, i,
+                 out.quads);
     }
 }
 

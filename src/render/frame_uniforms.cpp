@@ -5,7 +5,9 @@
 
 namespace vitrail::render {
 
-static Vec4 with(Vec3 v, float w) { return {v.x, v.y, v.z, w}; }
+static Vec4 with(Vec3 v, float w) {
+    return {v.x, v.y, v.z, w};
+}
 
 static ViewUniforms view_uniforms(const scene::View& view, u32 width, u32 height) {
     const float aspect = float(width) / float(height), t = std::tan(view.fov_y * 0.5f);
@@ -36,7 +38,8 @@ FrameUniforms make_frame_uniforms(const scene::FrameView& frame, bool background
     u.glow = with(sky.glow, 0);
     const float w = float(frame.width), h = float(frame.height);
     u.screen = {w, h, 1 / w, 1 / h};
-    u.misc = {frame.seconds, 1 / std::max(frame.view_distance, 1.0f), frame.gamma_exposure, sky.time / 24000.0f * 6.2831853f};
+    u.misc = {frame.seconds, 1 / std::max(frame.view_distance, 1.0f), frame.gamma_exposure,
+              sky.time / 24000.0f * 6.2831853f};
     u.background = with(background, background_on ? 1.0f : 0.0f);
     return u;
 }

@@ -15,7 +15,8 @@ struct ViewUniforms {
 
 struct FrameUniforms {
     ViewUniforms views[kViewsMost];
-    Vec4 sun_direction, moon_direction, light_direction, sun_light, ambient, zenith, horizon, glow, screen, misc, background;
+    Vec4 sun_direction, moon_direction, light_direction, sun_light, ambient, zenith, horizon, glow, screen, misc,
+        background;
 };
 static_assert(sizeof(ViewUniforms) == 144 && sizeof(FrameUniforms) == 8 * 144 + 11 * 16);
 

@@ -41,8 +41,8 @@ u32 LightAtlas::take() {
 void LightAtlas::upload(u32 slot, const u16* cells) {
     const u32 x = slot % kRow, y = slot / kRow % kRow, z = slot / kSlab;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
-    glTextureSubImage3D(texture_.name(), 0, GLint(x * kBrick), GLint(y * kBrick), GLint(z * kBrick), kBrick, kBrick, kBrick, GL_RGBA,
-                        GL_UNSIGNED_SHORT_4_4_4_4, cells);
+    glTextureSubImage3D(texture_.name(), 0, GLint(x * kBrick), GLint(y * kBrick), GLint(z * kBrick), kBrick, kBrick,
+                        kBrick, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, cells);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 

@@ -1,5 +1,5 @@
-// The light bricks of all sections in one 3-D texture (RGBA4, 28 x 28 bricks a slab of 18 texels). Uniform bricks of one
-// value share a slot. Slot 0 is full sky light.
+// The light bricks of all sections in one 3-D texture (RGBA4, 28 x 28 bricks a slab of 18 texels). Uniform bricks of
+// one value share a slot. Slot 0 is full sky light.
 #pragma once
 
 #include "gfx/handles.h"
@@ -30,7 +30,7 @@ private:
     struct Shared {
         u32 slot = 0, users = 0;
     };
-    std::unordered_map<u16, Shared> uniform_;       // by value
+    std::unordered_map<u16, Shared> uniform_; // by value
     std::unordered_map<u32, u16> uniform_of_slot_;
 };
 

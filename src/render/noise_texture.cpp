@@ -13,7 +13,9 @@ static float wrapped_noise(float x, float y, i32 cells, u32 octave) {
     const i32 ix = i32(x), iy = i32(y);
     const float fx = x - float(ix), fy = y - float(iy);
     const float sx = fx * fx * fx * (fx * (fx * 6 - 15) + 10), sy = fy * fy * fy * (fy * (fy * 6 - 15) + 10);
-    auto at = [&](i32 dx, i32 dy) { return random_unit({.seed = 77, .purpose = octave}, (ix + dx) % cells, 0, (iy + dy) % cells); };
+    auto at = [&](i32 dx, i32 dy) {
+        return random_unit({.seed = 77, .purpose = octave}, (ix + dx) % cells, 0, (iy + dy) % cells);
+    };
     const float a = at(0, 0) + (at(1, 0) - at(0, 0)) * sx, b = at(0, 1) + (at(1, 1) - at(0, 1)) * sx;
     return a + (b - a) * sy;
 }

@@ -53,14 +53,17 @@ gfx::Buffer make_quad_indices() {
     std::vector<u16> indices;
     indices.reserve(DrawList::kQuadsADraw * 6);
     for (u32 q = 0; q < DrawList::kQuadsADraw; ++q)
-        for (u32 c : {0u, 1u, 2u, 2u, 3u, 0u}) indices.push_back(u16(q * 4 + c));
+        for (u32 c : {0u, 1u, 2u, 2u, 3u, 0u})
+            indices.push_back(u16(q * 4 + c));
     return gfx::make_buffer(indices.size() * sizeof(u16), 0, indices.data());
 }
 
 } // namespace
 
 struct Renderer::Impl {
-    explicit Impl(const RendererOptions& options) : sections(options.quad_bytes_start), ring(1u << 20) {}
+    explicit Impl(const RendererOptions& options)
+        : sections(options.quad_bytes_start)
+        , ring(1u << 20) {}
 
     gfx::ContextInfo context;
     Quality quality = Quality::high;
@@ -125,12 +128,24 @@ void Renderer::Impl::make_graph(bool stencil) {
     graph.add_target({"color", GL_RGBA16F});
     graph.add_external("screen");
     using C = const gfx::PassContext&;
-    graph.add_pass({"terrain", {}, {"albedo", "light", "surface", "depth"}, [this](C) { timed("terrain", [&] { pass_terrain(); }); }, ""});
-    graph.add_pass({"lighting", {"albedo", "light", "surface"}, {"color"},
-                    [this](C c) { timed("lighting", [&] { pass_lighting(c.graph); }); }, "depth"});
-    graph.add_pass({"translucent", {}, {"color"}, [this](C c) { timed("translucent", [&] { pass_translucent(c.graph); }); }, "depth"});
+    graph.add_pass({"terrain",
+                    {},
+                    {"albedo", "light", "surface", "depth"},
+                    [this](C) { timed("terrain", [&] { pass_terrain(); }); },
+                    ""});
+    graph.add_pass({"lighting",
+                    {"albedo", "light", "surface"},
+                    {"color"},
+                    [this](C c) { timed("lighting", [&] { pass_lighting(c.graph); }); },
+                    "depth"});
+    graph.add_pass({"translucent",
+                    {},
+                    {"color"},
+                    [this](C c) { timed("translucent", [&] { pass_translucent(c.graph); }); },
+                    "depth"});
     graph.add_pass({"outline", {}, {"color"}, [this](C) { timed("outline", [&] { pass_outlines(); }); }, "depth"});
-    graph.add_pass({"tonemap", {"color"}, {"screen"}, [this](C c) { timed("tonemap", [&] { pass_tonemap(c.graph); }); }, ""});
+    graph.add_pass(
+        {"tonemap", {"color"}, {"screen"}, [this](C c) { timed("tonemap", [&] { pass_tonemap(c.graph); }); }, ""});
 }
 
 void Renderer::Impl::prepare_view(u32 index, const scene::View& view) {
@@ -155,7 +170,8 @@ void Renderer::Impl::prepare_view(u32 index, const scene::View& view) {
     in.albedo = textures.albedo().name(), in.material = textures.material().name();
     const gfx::Texture& atlas = sections.light().texture();
     in.light = atlas.name();
-    in.light_atlas = {1.0f / float(atlas.width), 1.0f / float(atlas.height), 1.0f / float(atlas.depth), float(LightAtlas::kRow)};
+    in.light_atlas = {1.0f / float(atlas.width), 1.0f / float(atlas.height), 1.0f / float(atlas.depth),
+                      float(LightAtlas::kRow)};
     in.view = index;
     in.mirrored = view.mirrored;
     if (!d.list.records.empty()) {
@@ -163,7 +179,8 @@ void Renderer::Impl::prepare_view(u32 index, const scene::View& view) {
         std::memcpy(records.data, d.list.records.data(), records.bytes);
         in.records = records.buffer, in.records_offset = records.offset;
         u64 bytes = 0;
-        for (const auto& list : d.list.commands) bytes += list.size() * sizeof(DrawCommand);
+        for (const auto& list : d.list.commands)
+            bytes += list.size() * sizeof(DrawCommand);
         const auto commands = ring.allocate(bytes, 256);
         in.commands = commands.buffer;
         u64 at = 0;
@@ -186,8 +203,10 @@ void Renderer::Impl::pass_terrain() {
     glDepthFunc(GL_GREATER);
     const float far = 0;
     const u32 framebuffer = graph.framebuffer("terrain");
-    if (graph_stencil) glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, far, 0);
-    else glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+    if (graph_stencil)
+        glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, far, 0);
+    else
+        glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
     // Colors need no clearing: only pixels with a depth are ever read.
     for (u32 i = 0; i < draws.size(); ++i) {
         if (graph_stencil) {
@@ -207,10 +226,12 @@ void Renderer::Impl::pass_terrain() {
 void Renderer::Impl::pass_lighting(const gfx::FrameGraph& g) {
     // Depth is sampled while it is attached: allowed, since nothing writes it between the barriers.
     glTextureBarrier();
-    draw_screen(programs.lighting, plain_array.name(), ScreenArea::surfaces,
-                {g.target("albedo").name(), g.target("light").name(), g.target("surface").name(), g.target("depth").name()});
+    draw_screen(
+        programs.lighting, plain_array.name(), ScreenArea::surfaces,
+        {g.target("albedo").name(), g.target("light").name(), g.target("surface").name(), g.target("depth").name()});
     const bool night = frame->sky.stars > 0 || frame->sky.moon_direction.y > -0.15f;
-    draw_screen(night ? programs.sky_night : programs.sky_day, plain_array.name(), ScreenArea::background, {noise.name()});
+    draw_screen(night ? programs.sky_night : programs.sky_day, plain_array.name(), ScreenArea::background,
+                {noise.name()});
 }
 
 void Renderer::Impl::pass_translucent(const gfx::FrameGraph& g) {
@@ -240,7 +261,8 @@ void Renderer::Impl::pass_outlines() {
     for (const scene::Outline& picked : frame->outlines) {
         if (picked.at.dimension != view.eye.dimension) continue;
         const Vec3 corner = view_from(view.eye.at, picked.at.at).v;
-        for (const Box& box : picked.boxes) boxes.push_back({corner + box.min, corner + box.max});
+        for (const Box& box : picked.boxes)
+            boxes.push_back({corner + box.min, corner + box.max});
     }
     if (boxes.empty()) return;
     glEnable(GL_BLEND);
@@ -259,7 +281,8 @@ void Renderer::Impl::reserve_models(u32 count) {
     const u32 capacity = std::max(count, models_capacity * 2);
     gfx::Buffer bigger = gfx::make_buffer(u64(capacity) * sizeof(scene::ModelQuad), GL_DYNAMIC_STORAGE_BIT);
     if (models_held)
-        glCopyNamedBufferSubData(models.name(), bigger.name(), 0, 0, GLsizeiptr(u64(models_held) * sizeof(scene::ModelQuad)));
+        glCopyNamedBufferSubData(models.name(), bigger.name(), 0, 0,
+                                 GLsizeiptr(u64(models_held) * sizeof(scene::ModelQuad)));
     models = std::move(bigger);
     models_capacity = capacity;
 }
@@ -274,6 +297,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     made->impl_ = std::make_unique<Impl>(options);
     Impl& impl = *made->impl_;
     impl.context = std::move(context);
+    if (impl.context.software) impl.context.anisotropy_max = 1; // eight times the texture work on the CPU
     impl.quality = options.quality;
     VX_TRY_ASSIGN(impl.programs, make_programs(options.quality));
     VX_TRY_ASSIGN(impl.outline, load_program("outline", "outline/outline.vert.glsl", "outline/outline.frag.glsl"));
@@ -298,8 +322,12 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
 Result<> Renderer::load_textures(const BlockRegistry& registry) {
     return impl_->textures.load(registry, impl_->quality == Quality::high, impl_->context.anisotropy_max);
 }
-u32 Renderer::missing_textures() const { return u32(impl_->textures.missing().size()); }
-const std::vector<std::string>& Renderer::missing_texture_names() const { return impl_->textures.missing(); }
+u32 Renderer::missing_textures() const {
+    return u32(impl_->textures.missing().size());
+}
+const std::vector<std::string>& Renderer::missing_texture_names() const {
+    return impl_->textures.missing();
+}
 
 void Renderer::sync_models(const scene::BlockModels& models) {
     Impl& impl = *impl_;
@@ -313,25 +341,39 @@ void Renderer::sync_models(const scene::BlockModels& models) {
     const auto tints = models.fixed_tints();
     if (tints.size() > impl.fixed_tints_held) {
         std::vector<u32> words;
-        for (const auto& t : tints) words.push_back(u32(t[0]) | u32(t[1]) << 8 | u32(t[2]) << 16 | 0xff000000u);
+        for (const auto& t : tints)
+            words.push_back(u32(t[0]) | u32(t[1]) << 8 | u32(t[2]) << 16 | 0xff000000u);
         words.resize(std::min<std::size_t>(words.size(), 256));
         glNamedBufferSubData(impl.fixed_tints.name(), 0, GLsizeiptr(words.size() * 4), words.data());
         impl.fixed_tints_held = tints.size();
     }
 }
 
-void Renderer::set_section(ChunkPos at, DimensionId d, const SectionMesh& mesh) { impl_->sections.set({at, d}, mesh); }
-void Renderer::set_section_light(ChunkPos at, DimensionId d, const LightBrick& brick) { impl_->sections.set_light({at, d}, brick); }
-void Renderer::set_section_tints(ChunkPos at, DimensionId d, const TintGrid& tints) { impl_->sections.set_tints({at, d}, tints); }
-void Renderer::remove_section(ChunkPos at, DimensionId d) { impl_->sections.remove({at, d}); }
-void Renderer::clear_sections() { impl_->sections.clear(); }
-bool Renderer::has_section(ChunkPos at, DimensionId d) const { return impl_->sections.find({at, d}) != nullptr; }
+void Renderer::set_section(ChunkPos at, DimensionId d, const SectionMesh& mesh) {
+    impl_->sections.set({at, d}, mesh);
+}
+void Renderer::set_section_light(ChunkPos at, DimensionId d, const LightBrick& brick) {
+    impl_->sections.set_light({at, d}, brick);
+}
+void Renderer::set_section_tints(ChunkPos at, DimensionId d, const TintGrid& tints) {
+    impl_->sections.set_tints({at, d}, tints);
+}
+void Renderer::remove_section(ChunkPos at, DimensionId d) {
+    impl_->sections.remove({at, d});
+}
+void Renderer::clear_sections() {
+    impl_->sections.clear();
+}
+bool Renderer::has_section(ChunkPos at, DimensionId d) const {
+    return impl_->sections.find({at, d}) != nullptr;
+}
 
 Result<> Renderer::render(const scene::FrameView& frame, u32 framebuffer) {
     Impl& impl = *impl_;
     if (frame.views.empty()) return fail(ErrorCode::invalid_argument, "a frame without a view");
     if (frame.width == 0 || frame.height == 0 || frame.width > 16384 || frame.height > 16384)
-        return fail(ErrorCode::invalid_argument, fmt::format("a picture of {}x{} cannot be drawn", frame.width, frame.height));
+        return fail(ErrorCode::invalid_argument,
+                    fmt::format("a picture of {}x{} cannot be drawn", frame.width, frame.height));
     const u64 start = now_ns();
     const bool stencil = frame.views.size() > 1;
     if (!impl.graph_made || stencil != impl.graph_stencil) {
@@ -360,7 +402,8 @@ Result<> Renderer::render(const scene::FrameView& frame, u32 framebuffer) {
     std::memcpy(slice.data, &uniforms, sizeof uniforms);
     impl.textures.animate(frame.seconds);
     impl.draws.resize(std::min<std::size_t>(frame.views.size(), kViewsMost));
-    for (u32 i = 0; i < impl.draws.size(); ++i) impl.prepare_view(i, frame.views[i]);
+    for (u32 i = 0; i < impl.draws.size(); ++i)
+        impl.prepare_view(i, frame.views[i]);
     const u64 culled = now_ns();
 
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -369,7 +412,8 @@ Result<> Renderer::render(const scene::FrameView& frame, u32 framebuffer) {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glBlendEquation(GL_FUNC_ADD);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    for (u32 unit = 0; unit < 4; ++unit) glBindSampler(unit, 0); // a user interface may have left one
+    for (u32 unit = 0; unit < 4; ++unit)
+        glBindSampler(unit, 0); // a user interface may have left one
     glBindBufferRange(GL_UNIFORM_BUFFER, 0, slice.buffer, GLintptr(slice.offset), sizeof uniforms);
     impl.graph.execute();
     impl.ring.end_frame();
@@ -378,8 +422,9 @@ Result<> Renderer::render(const scene::FrameView& frame, u32 framebuffer) {
     stats.sections = u32(impl.sections.all().size());
     stats.triangles = stats.quads * 2;
     stats.quads_held = impl.sections.quads_held();
-    stats.gpu_bytes = impl.sections.gpu_bytes() + impl.textures.gpu_bytes() + impl.ring.bytes() + impl.graph.target_bytes() +
-                      impl.models.bytes + impl.quad_indices.bytes + impl.noise.bytes() + impl.picture.bytes();
+    stats.gpu_bytes = impl.sections.gpu_bytes() + impl.textures.gpu_bytes() + impl.ring.bytes() +
+                      impl.graph.target_bytes() + impl.models.bytes + impl.quad_indices.bytes + impl.noise.bytes() +
+                      impl.picture.bytes();
     stats.cpu_bytes = impl.sections.cpu_bytes();
     stats.cull_ms = double(culled - start) * 1e-6;
     stats.total_ms = double(now_ns() - start) * 1e-6;
@@ -412,12 +457,14 @@ Result<std::vector<u8>> Renderer::read_view_numbers() {
     const gfx::Texture& surface = impl.graph.target("surface");
     std::vector<u8> raw(std::size_t(surface.width) * surface.height * 4), numbers(raw.size() / 4);
     glGetTextureImage(surface.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, GLsizei(raw.size()), raw.data());
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = raw[i * 4 + 2];
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = raw[i * 4 + 2];
     flip_rows(numbers.data(), surface.height, surface.width);
     return numbers;
 }
 
-Result<gfx::Texture> Renderer::render_block_icon(const StateTable& states, const scene::BlockModels& models, StateId state, u32 size) {
+Result<gfx::Texture> Renderer::render_block_icon(const StateTable& states, const scene::BlockModels& models,
+                                                 StateId state, u32 size) {
     if (size == 0 || size > 2048 || !states.contains(state)) return fail(ErrorCode::invalid_argument, "no such icon");
     return draw_icon(impl_->icon, impl_->textures, states, models, state, size);
 }
@@ -438,10 +485,20 @@ void Renderer::set_quality(Quality quality) {
     impl_->quality = quality;
     impl_->textures.set_smooth(quality == Quality::high, impl_->context.anisotropy_max);
 }
-Quality Renderer::quality() const { return impl_->quality; }
-void Renderer::set_cave_culling(bool on) { impl_->caves = on; }
-void Renderer::set_timing(bool on) { impl_->timing = on; }
-void Renderer::set_background(bool on, Vec3 color) { impl_->background_on = on, impl_->background = color; }
-const FrameStats& Renderer::stats() const { return impl_->stats; }
+Quality Renderer::quality() const {
+    return impl_->quality;
+}
+void Renderer::set_cave_culling(bool on) {
+    impl_->caves = on;
+}
+void Renderer::set_timing(bool on) {
+    impl_->timing = on;
+}
+void Renderer::set_background(bool on, Vec3 color) {
+    impl_->background_on = on, impl_->background = color;
+}
+const FrameStats& Renderer::stats() const {
+    return impl_->stats;
+}
 
 } // namespace vitrail::render

@@ -91,7 +91,8 @@ void SectionStore::remove(SectionKey key) {
 }
 
 void SectionStore::clear() {
-    while (!all_.empty()) remove({all_.back()->at, all_.back()->dimension});
+    while (!all_.empty())
+        remove({all_.back()->at, all_.back()->dimension});
 }
 
 u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
@@ -111,23 +112,29 @@ u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
             c[axis] += u32(q.face()) & 1 ? 1 : -1;
         }
         u32 distance2 = 0;
-        for (int k = 0; k < 3; ++k) distance2 += u32((c[k] - eye[k]) * (c[k] - eye[k]));
+        for (int k = 0; k < 3; ++k)
+            distance2 += u32((c[k] - eye[k]) * (c[k] - eye[k]));
         order[i] = {~distance2, i}; // far first; equal ones keep the mesher's order
     }
     std::sort(order.begin(), order.end());
     std::vector<Quad> sorted(count);
-    for (u32 i = 0; i < count; ++i) sorted[i] = section.translucent[order[i].second];
+    for (u32 i = 0; i < count; ++i)
+        sorted[i] = section.translucent[order[i].second];
     const u32 at = section.first_quad + section.first[SectionMesh::group(QuadPass::translucent, 0)];
-    glNamedBufferSubData(quads_.name(), GLintptr(u64(at) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)), sorted.data());
+    glNamedBufferSubData(quads_.name(), GLintptr(u64(at) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)),
+                         sorted.data());
     section.translucent = std::move(sorted);
     return count;
 }
 
-u64 SectionStore::gpu_bytes() const { return quads_.bytes + light_.texture().bytes() + tints_.gpu_bytes(); }
+u64 SectionStore::gpu_bytes() const {
+    return quads_.bytes + light_.texture().bytes() + tints_.gpu_bytes();
+}
 
 u64 SectionStore::cpu_bytes() const {
     u64 sum = all_.size() * (sizeof(Section) + 64) + all_.capacity() * sizeof(Section*);
-    for (const Section* s : all_) sum += s->translucent.capacity() * sizeof(Quad);
+    for (const Section* s : all_)
+        sum += s->translucent.capacity() * sizeof(Quad);
     return sum;
 }
 

@@ -18,7 +18,9 @@ struct SectionKey {
     friend bool operator==(const SectionKey&, const SectionKey&) = default;
 };
 struct HashSectionKey {
-    std::size_t operator()(const SectionKey& k) const { return hash_combine(std::hash<ChunkPos>()(k.at), u64(k.dimension)); }
+    std::size_t operator()(const SectionKey& k) const {
+        return hash_combine(std::hash<ChunkPos>()(k.at), u64(k.dimension));
+    }
 };
 
 struct Section {
@@ -28,9 +30,9 @@ struct Section {
     std::array<u32, SectionMesh::kGroups + 1> first{}; // as SectionMesh::first
     u64 connections = 0;
     u32 light_slot = 0, tint_slot = 0;
-    u32 index = 0;            // in SectionStore::all()
-    u64 reached = 0;          // stamp of the last walk that found it (culling.h)
-    std::vector<Quad> translucent; // copy for sorting
+    u32 index = 0;                             // in SectionStore::all()
+    u64 reached = 0;                           // stamp of the last walk that found it (culling.h)
+    std::vector<Quad> translucent;             // copy for sorting
     std::array<i8, 3> sorted_from{-128, 0, 0}; // the eye's cell when last sorted
     u32 group_size(QuadPass pass) const {
         return first[SectionMesh::group(pass, 0) + SectionMesh::kDirections] - first[SectionMesh::group(pass, 0)];
@@ -49,8 +51,8 @@ public:
     const std::vector<Section*>& all() const { return all_; }
     u64 revision() const { return revision_; } // grows where culling may change
 
-    // Sorts the translucent quads of a section back to front as seen from a cell -1..16 on each axis of it, where it has
-    // not been sorted from there; the number of quads moved.
+    // Sorts the translucent quads of a section back to front as seen from a cell -1..16 on each axis of it, where it
+    // has not been sorted from there; the number of quads moved.
     u32 sort_translucent(Section& section, std::array<i8, 3> from);
 
     u32 quad_buffer() const { return quads_.name(); }

@@ -19,7 +19,8 @@ static Result<> append(std::string_view path, std::string& out, std::set<std::st
         rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
         if (line.starts_with(kInclude)) {
             const std::size_t close = line.find('"', kInclude.size());
-            if (close == std::string_view::npos) return fail(ErrorCode::invalid_argument, fmt::format("{}: {}", path, line));
+            if (close == std::string_view::npos)
+                return fail(ErrorCode::invalid_argument, fmt::format("{}: {}", path, line));
             VX_TRY(append(line.substr(kInclude.size(), close - kInclude.size()), out, seen));
         } else {
             out.append(line);

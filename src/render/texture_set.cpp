@@ -38,11 +38,14 @@ std::array<u8, 4> texel(const Image& image, u32 frame, u32 x, u32 y) {
     return {p[0], p[1], p[2], image.channels == 4 ? p[3] : u8(255)};
 }
 
-u32 frames_of(const Image& image) { return image.height > image.width ? image.height / image.width : 1; }
+u32 frames_of(const Image& image) {
+    return image.height > image.width ? image.height / image.width : 1;
+}
 
 float coverage(const std::vector<u8>& level, float scale) {
     u32 passed = 0;
-    for (std::size_t i = 3; i < level.size(); i += 4) passed += float(level[i]) * scale >= 127.5f;
+    for (std::size_t i = 3; i < level.size(); i += 4)
+        passed += float(level[i]) * scale >= 127.5f;
     return float(passed) / float(level.size() / 4);
 }
 
@@ -90,7 +93,9 @@ Loaded read_texture(const BlockRegistry& registry, const std::string& name) {
     return out;
 }
 
-const Image* or_null(const Image& image) { return image.width ? &image : nullptr; }
+const Image* or_null(const Image& image) {
+    return image.width ? &image : nullptr;
+}
 
 void upload(const gfx::Texture& texture, u32 layer, const MipChain& chain) {
     for (u32 level = 0; level < kLevels; ++level) {
@@ -123,7 +128,8 @@ MipChain make_albedo_mips(const Image& image, u32 frame) {
         for (u32 i = 0; i < kSize * kSize; ++i)
             if (first[i * 4 + 3] == 0) {
                 now[i] = {sum[0] / weight, sum[1] / weight, sum[2] / weight, 0};
-                for (u32 c = 0; c < 3; ++c) first[i * 4 + c] = srgb_of(sum[c] / weight);
+                for (u32 c = 0; c < 3; ++c)
+                    first[i * 4 + c] = srgb_of(sum[c] / weight);
             }
     chain.levels.push_back(std::move(first));
     const float wanted = coverage(chain.levels[0], 1);
@@ -140,8 +146,10 @@ MipChain make_albedo_mips(const Image& image, u32 frame) {
                     p.r += q.r * q.a, p.g += q.g * q.a, p.b += q.b * q.a, p.a += q.a;
                     plain[0] += q.r / 4, plain[1] += q.g / 4, plain[2] += q.b / 4;
                 }
-                if (p.a > 0) p = {p.r / p.a, p.g / p.a, p.b / p.a, p.a / 4};
-                else p = {plain[0], plain[1], plain[2], 0};
+                if (p.a > 0)
+                    p = {p.r / p.a, p.g / p.a, p.b / p.a, p.a / 4};
+                else
+                    p = {plain[0], plain[1], plain[2], 0};
                 next[y * side + x] = p;
                 u8* out = &bytes[(y * side + x) * 4];
                 out[0] = srgb_of(p.r), out[1] = srgb_of(p.g), out[2] = srgb_of(p.b), out[3] = u8(p.a * 255 + 0.5f);
@@ -184,7 +192,8 @@ MipChain make_material_mips(const Image* normal, const Image* roughness, const I
             for (u32 x = 0; x < side; ++x)
                 for (u32 c = 0; c < 4; ++c) {
                     u32 sum = 2;
-                    for (u32 k = 0; k < 4; ++k) sum += now[((y * 2 + k / 2) * side * 2 + x * 2 + k % 2) * 4 + c];
+                    for (u32 k = 0; k < 4; ++k)
+                        sum += now[((y * 2 + k / 2) * side * 2 + x * 2 + k % 2) * 4 + c];
                     next[(y * side + x) * 4 + c] = u8(sum / 4);
                 }
         chain.levels.push_back(next);
@@ -205,7 +214,8 @@ Result<> TextureSet::load(const BlockRegistry& registry, bool smooth, float anis
     animations_.clear();
     missing_.clear();
     const Image plain = plain_pattern();
-    const MipChain plain_albedo = make_albedo_mips(plain, 0), plain_material = make_material_mips(nullptr, nullptr, nullptr, 0);
+    const MipChain plain_albedo = make_albedo_mips(plain, 0),
+                   plain_material = make_material_mips(nullptr, nullptr, nullptr, 0);
     std::vector<std::pair<MipChain, MipChain>> frames;
     for (u32 id = 0; id < layers; ++id) {
         const bool unknown = id == 0 || id >= textures.size();
@@ -218,7 +228,8 @@ Result<> TextureSet::load(const BlockRegistry& registry, bool smooth, float anis
         }
         const bool has_material = loaded.normal.width || loaded.roughness.width || loaded.emission.width;
         auto material_of = [&](u32 frame) {
-            return has_material ? make_material_mips(or_null(loaded.normal), or_null(loaded.roughness), or_null(loaded.emission), frame)
+            return has_material ? make_material_mips(or_null(loaded.normal), or_null(loaded.roughness),
+                                                     or_null(loaded.emission), frame)
                                 : plain_material;
         };
         const MipChain first = make_albedo_mips(loaded.albedo, 0);
@@ -229,11 +240,13 @@ Result<> TextureSet::load(const BlockRegistry& registry, bool smooth, float anis
         if (count <= 1) continue;
         animations_.push_back({id, u32(frames.size()), count, std::max(textures[id].frame_time, 1u), 0});
         frames.emplace_back(first, first_material);
-        for (u32 f = 1; f < count; ++f) frames.emplace_back(make_albedo_mips(loaded.albedo, f), material_of(f));
+        for (u32 f = 1; f < count; ++f)
+            frames.emplace_back(make_albedo_mips(loaded.albedo, f), material_of(f));
     }
     if (!frames.empty()) {
         if (frames.size() > u32(most))
-            return fail(ErrorCode::limit, fmt::format("{} animation frames, this OpenGL holds {}", frames.size(), most));
+            return fail(ErrorCode::limit,
+                        fmt::format("{} animation frames, this OpenGL holds {}", frames.size(), most));
         frames_albedo_ = gfx::make_texture_2d_array(GL_RGBA8, kSize, kSize, u32(frames.size()), kLevels);
         frames_material_ = gfx::make_texture_2d_array(GL_RGBA8, kSize, kSize, u32(frames.size()), kLevels);
         for (u32 i = 0; i < frames.size(); ++i) {
@@ -267,8 +280,8 @@ void TextureSet::animate(double seconds) {
         for (u32 level = 0; level < kLevels; ++level) {
             const GLsizei side = GLsizei(kSize >> level);
             const GLint from = GLint(a.first_frame + frame), to = GLint(a.layer), at = GLint(level);
-            glCopyImageSubData(frames_albedo_.name(), GL_TEXTURE_2D_ARRAY, at, 0, 0, from, albedo_.name(), GL_TEXTURE_2D_ARRAY, at,
-                               0, 0, to, side, side, 1);
+            glCopyImageSubData(frames_albedo_.name(), GL_TEXTURE_2D_ARRAY, at, 0, 0, from, albedo_.name(),
+                               GL_TEXTURE_2D_ARRAY, at, 0, 0, to, side, side, 1);
             glCopyImageSubData(frames_material_.name(), GL_TEXTURE_2D_ARRAY, at, 0, 0, from, material_.name(),
                                GL_TEXTURE_2D_ARRAY, at, 0, 0, to, side, side, 1);
         }

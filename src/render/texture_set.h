@@ -1,6 +1,6 @@
-// The block textures as two arrays of 32x32 layers. Layer = TextureId, so that shaders need no table; an animation copies
-// its current frame into its layer. Albedo is sRGB-encoded RGBA8 (decoded by the lighting pass); material holds the normal
-// map's x and y, roughness and emission, linear.
+// The block textures as two arrays of 32x32 layers. Layer = TextureId, so that shaders need no table; an animation
+// copies its current frame into its layer. Albedo is sRGB-encoded RGBA8 (decoded by the lighting pass); material holds
+// the normal map's x and y, roughness and emission, linear.
 #pragma once
 
 #include "base/result.h"
@@ -35,9 +35,9 @@ private:
     std::vector<std::string> missing_;
 };
 
-// One layer with its mip levels, largest first; public for tests. Albedo is averaged in linear light, weighted by alpha, and
-// the alpha of each level is scaled so that as much of it passes the 0.5 test as of level 0: leaves keep their
-// density far away.
+// One layer with its mip levels, largest first; public for tests. Albedo is averaged in linear light, weighted by
+// alpha, and the alpha of each level is scaled so that as much of it passes the 0.5 test as of level 0: leaves keep
+// their density far away.
 struct MipChain {
     std::vector<std::vector<u8>> levels; // RGBA, 32x32 down to 1x1
 };

@@ -7,7 +7,8 @@ namespace vitrail::render {
 
 std::size_t TintTable::HashWords::operator()(const Words& words) const {
     u64 h = 0;
-    for (u32 w : words) h = hash_combine(h, w);
+    for (u32 w : words)
+        h = hash_combine(h, w);
     return std::size_t(h);
 }
 
@@ -26,7 +27,8 @@ TintTable::TintTable() {
 void TintTable::reserve(u32 slots) {
     if (slots <= capacity_) return;
     gfx::Buffer bigger = gfx::make_buffer(u64(slots) * kWords * 4, GL_DYNAMIC_STORAGE_BIT);
-    if (capacity_) glCopyNamedBufferSubData(buffer_.name(), bigger.name(), 0, 0, GLsizeiptr(u64(capacity_) * kWords * 4));
+    if (capacity_)
+        glCopyNamedBufferSubData(buffer_.name(), bigger.name(), 0, 0, GLsizeiptr(u64(capacity_) * kWords * 4));
     buffer_ = std::move(bigger);
     capacity_ = slots;
 }

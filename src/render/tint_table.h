@@ -1,5 +1,5 @@
-// Tint grids of sections in one buffer, equal ones stored once. A slot is 108 words: grass, foliage, water, 36 texels each.
-// Slot 0 holds the plain colors.
+// Tint grids of sections in one buffer, equal ones stored once. A slot is 108 words: grass, foliage, water, 36 texels
+// each. Slot 0 holds the plain colors.
 #pragma once
 
 #include "gfx/handles.h"

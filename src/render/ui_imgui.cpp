@@ -18,7 +18,8 @@ Result<std::unique_ptr<UiLayer>> UiLayer::create(platform::Window& window) {
         ImGui::DestroyContext();
         return fail(ErrorCode::unsupported, "the user interface cannot start on this OpenGL");
     }
-    window.set_raw_listener([](const void* event) { ImGui_ImplSDL2_ProcessEvent(static_cast<const SDL_Event*>(event)); });
+    window.set_raw_listener(
+        [](const void* event) { ImGui_ImplSDL2_ProcessEvent(static_cast<const SDL_Event*>(event)); });
     std::unique_ptr<UiLayer> made(new UiLayer);
     made->window_ = &window;
     return made;
@@ -43,7 +44,11 @@ void UiLayer::end_frame() {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-bool UiLayer::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool UiLayer::wants_keyboard() const { return ImGui::GetIO().WantCaptureKeyboard; }
+bool UiLayer::wants_mouse() const {
+    return ImGui::GetIO().WantCaptureMouse;
+}
+bool UiLayer::wants_keyboard() const {
+    return ImGui::GetIO().WantCaptureKeyboard;
+}
 
 } // namespace vitrail::render

@@ -28,14 +28,16 @@ SkyState sky_at(float time) {
     const float dusk = smoothstep(0.42f, 0.04f, up) * smoothstep(-0.30f, -0.02f, up);
     // The sun grows white as it climbs; both lights are gone at the horizon, where they take over from each other.
     const Vec3 sun = lerp(Vec3{1.0f, 0.38f, 0.10f}, Vec3{1.0f, 0.91f, 0.76f}, smoothstep(0.0f, 0.45f, up));
-    const float sun_strength = 2.35f * smoothstep(-0.02f, 0.30f, up);
+    const float sun_strength = 1.95f * smoothstep(-0.02f, 0.30f, up);
     const Vec3 moon{0.32f, 0.44f, 0.75f};
-    const float moon_strength = 0.16f * smoothstep(0.02f, 0.30f, -up);
+    const float moon_strength = 0.30f * smoothstep(0.02f, 0.30f, -up);
     sky.sun_light = sun * sun_strength + moon * moon_strength;
-    const Vec3 ambient_day{0.62f, 0.76f, 1.0f}, ambient_night{0.020f, 0.030f, 0.062f};
-    sky.ambient = lerp(ambient_night, ambient_day * 0.62f, day) + Vec3{0.16f, 0.075f, 0.06f} * dusk;
-    sky.zenith = lerp(Vec3{0.0028f, 0.0050f, 0.0150f}, Vec3{0.105f, 0.270f, 0.720f}, day) + Vec3{0.012f, 0.004f, 0.030f} * dusk;
-    sky.horizon = lerp(Vec3{0.0100f, 0.0160f, 0.0360f}, Vec3{0.52f, 0.70f, 0.94f}, day) + Vec3{0.20f, 0.055f, 0.010f} * dusk;
+    const Vec3 ambient_day{0.62f, 0.76f, 1.0f}, ambient_night{0.050f, 0.066f, 0.112f};
+    sky.ambient = lerp(ambient_night, ambient_day * 0.58f, day) + Vec3{0.16f, 0.075f, 0.06f} * dusk;
+    sky.zenith =
+        lerp(Vec3{0.0028f, 0.0050f, 0.0150f}, Vec3{0.085f, 0.235f, 0.680f}, day) + Vec3{0.012f, 0.004f, 0.030f} * dusk;
+    sky.horizon =
+        lerp(Vec3{0.0100f, 0.0160f, 0.0360f}, Vec3{0.36f, 0.56f, 0.86f}, day) + Vec3{0.20f, 0.055f, 0.010f} * dusk;
     sky.glow = Vec3{1.10f, 0.36f, 0.08f} * dusk + Vec3{0.30f, 0.26f, 0.18f} * (day * (1.0f - dusk));
     sky.fog = sky.horizon;
     sky.stars = night;

@@ -9,8 +9,10 @@ void draw_screen(const gfx::Program& program, u32 vertex_array, ScreenArea area,
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
     // The triangle lies infinitely far (depth 0): nearer surfaces are "greater", empty pixels equal.
-    if (area == ScreenArea::all) glDisable(GL_DEPTH_TEST);
-    else glEnable(GL_DEPTH_TEST);
+    if (area == ScreenArea::all)
+        glDisable(GL_DEPTH_TEST);
+    else
+        glEnable(GL_DEPTH_TEST);
     glDepthFunc(area == ScreenArea::surfaces ? GL_LESS : GL_EQUAL);
     glUseProgram(program.name());
     glBindVertexArray(vertex_array);

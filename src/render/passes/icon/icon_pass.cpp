@@ -17,19 +17,24 @@ Vec3 tint_color(u64 look, const scene::BlockModels& models) {
     const BiomeTint plain;
     auto from = [](std::array<u8, 3> c) { return Vec3{float(c[0]) / 255, float(c[1]) / 255, float(c[2]) / 255}; };
     switch (TintKind(look >> 48 & 7)) {
-    case TintKind::grass: return from(plain.grass);
-    case TintKind::foliage: return from(plain.foliage);
-    case TintKind::water: return from(plain.water);
+    case TintKind::grass:
+        return from(plain.grass);
+    case TintKind::foliage:
+        return from(plain.foliage);
+    case TintKind::water:
+        return from(plain.water);
     case TintKind::fixed: {
         const auto tints = models.fixed_tints();
         const u32 index = u32(look >> 51 & 255);
         return index < tints.size() ? from(tints[index]) : Vec3{1, 1, 1};
     }
-    default: return {1, 1, 1};
+    default:
+        return {1, 1, 1};
     }
 }
 
-void push_quad(std::vector<IconVertex>& out, const Vec3 (&p)[4], const Vec2 (&uv)[4], u64 look, float shade, Vec3 tint) {
+void push_quad(std::vector<IconVertex>& out, const Vec3 (&p)[4], const Vec2 (&uv)[4], u64 look, float shade,
+               Vec3 tint) {
     const float layer = float(look >> 32 & 0xffff);
     for (u32 i : {0u, 1u, 2u, 2u, 3u, 0u})
         out.push_back({p[i].x, p[i].y, p[i].z, layer, uv[i].x, uv[i].y, shade, 0, tint.x, tint.y, tint.z, 1});
@@ -38,22 +43,36 @@ void push_quad(std::vector<IconVertex>& out, const Vec3 (&p)[4], const Vec2 (&uv
 void push_cube_face(std::vector<IconVertex>& out, Face face, u64 look, Vec3 tint) {
     const Vec2 uv[4] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     switch (face) {
-    case Face::up: return push_quad(out, {{0, 1, 1}, {1, 1, 1}, {1, 1, 0}, {0, 1, 0}}, uv, look, 1.0f, tint);
-    case Face::south: return push_quad(out, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, uv, look, 0.80f, tint);
-    case Face::east: return push_quad(out, {{1, 0, 1}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, uv, look, 0.62f, tint);
-    default: return;
+    case Face::up:
+        return push_quad(out, {{0, 1, 1}, {1, 1, 1}, {1, 1, 0}, {0, 1, 0}}, uv, look, 1.0f, tint);
+    case Face::south:
+        return push_quad(out, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, uv, look, 0.80f, tint);
+    case Face::east:
+        return push_quad(out, {{1, 0, 1}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, uv, look, 0.62f, tint);
+    default:
+        return;
     }
 }
 
 bool shown_flat(ShapeKind shape) {
     switch (shape) {
-    case ShapeKind::cross: case ShapeKind::crop: case ShapeKind::rail: case ShapeKind::ladder: case ShapeKind::faces:
-    case ShapeKind::lily_pad: case ShapeKind::torch: case ShapeKind::wall_torch: case ShapeKind::chain: return true;
-    default: return false;
+    case ShapeKind::cross:
+    case ShapeKind::crop:
+    case ShapeKind::rail:
+    case ShapeKind::ladder:
+    case ShapeKind::faces:
+    case ShapeKind::lily_pad:
+    case ShapeKind::torch:
+    case ShapeKind::wall_torch:
+    case ShapeKind::chain:
+        return true;
+    default:
+        return false;
     }
 }
 
-std::vector<IconVertex> icon_vertices(const StateTable& states, const scene::BlockModels& models, StateId state, bool& flat) {
+std::vector<IconVertex> icon_vertices(const StateTable& states, const scene::BlockModels& models, StateId state,
+                                      bool& flat) {
     std::vector<IconVertex> out;
     const StateInfo& info = states.info(state);
     const scene::ModelKind kind = models.kinds()[u32(state)];

@@ -16,7 +16,7 @@ vec3 shade(vec3 albedo, vec3 n, vec4 light, float ao, float emission, float roug
     vec3 block = light.rgb * light.rgb * (0.35 + 0.65 * light.rgb) * vec3(1.45, 1.22, 0.98);
     float strongest = max(max(block.r, block.g), block.b);
     block *= mix(vec3(1.12, 0.86, 0.60), vec3(1.0), min(strongest, 1.0));
-    sum += (block * 1.35 + vec3(0.0055, 0.0060, 0.0075)) * ao;
+    sum += (block * 1.35 + vec3(0.0080, 0.0085, 0.0100)) * ao;
 #ifdef HIGH
     // A gloss for what is smooth: Blinn-Phong with energy kept roughly.
     vec3 halfway = normalize(light_direction.xyz - towards);
@@ -34,7 +34,7 @@ vec3 shade(vec3 albedo, vec3 n, vec4 light, float ao, float emission, float roug
 vec3 apply_fog(vec3 color, float away, vec3 towards, float underwater) {
     float x = away * misc.y;
     float x2 = x * x;
-    float far = clamp(x2 * x2 * 0.85 + 0.16 * x2, 0.0, 1.0) * (1.0 - background.w);
+    float far = clamp(x2 * x2 * 0.90 + 0.12 * x2, 0.0, 1.0) * (1.0 - background.w);
     vec3 level = vec3(towards.x, 0.0, towards.z) * inversesqrt(max(towards.x * towards.x + towards.z * towards.z, 1e-6));
     vec3 air = sky_dome(level);
     color = mix(color, air, far);

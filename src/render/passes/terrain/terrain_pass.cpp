@@ -35,7 +35,8 @@ static void bind(const TerrainInputs& in) {
     glVertexArrayVertexBuffer(in.vertex_array, 0, in.records, GLintptr(in.records_offset), sizeof(SectionRecord));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, in.commands);
     const u32 storage[4] = {in.quads, in.tints, in.fixed_tints, in.models};
-    for (u32 i = 0; i < 4; ++i) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, storage[i]);
+    for (u32 i = 0; i < 4; ++i)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, storage[i]);
     const u32 textures[4] = {in.albedo, in.light, in.material, in.depth};
     glBindTextures(0, 4, textures);
     glFrontFace(in.mirrored ? GL_CW : GL_CCW);
@@ -48,9 +49,12 @@ static void draw(const TerrainPrograms& programs, const TerrainInputs& in, DrawK
     glUseProgram(program);
     glProgramUniform1ui(program, 0, in.view);
     glProgramUniform4f(program, 1, in.light_atlas.x, in.light_atlas.y, in.light_atlas.z, in.light_atlas.w);
-    if (cull) glEnable(GL_CULL_FACE);
-    else glDisable(GL_CULL_FACE);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(range.offset), GLsizei(range.count), 0);
+    if (cull)
+        glEnable(GL_CULL_FACE);
+    else
+        glDisable(GL_CULL_FACE);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(range.offset),
+                                GLsizei(range.count), 0);
 }
 
 void draw_terrain_opaque(const TerrainPrograms& programs, const TerrainInputs& in) {

@@ -18,7 +18,7 @@ Result<TerrainPrograms> make_terrain_programs(bool high);
 struct TerrainInputs {
     u32 vertex_array = 0;
     u32 quads = 0, tints = 0, fixed_tints = 0, models = 0; // storage buffers
-    u32 records = 0;                                        // vertex buffer of SectionRecord
+    u32 records = 0;                                       // vertex buffer of SectionRecord
     u64 records_offset = 0;
     u32 commands = 0; // indirect buffer
     struct Range {
@@ -27,7 +27,7 @@ struct TerrainInputs {
     };
     Range ranges[u32(DrawKind::count)];
     u32 albedo = 0, material = 0, light = 0, depth = 0; // textures
-    Vec4 light_atlas; // 1 / texels of each axis, bricks a row
+    Vec4 light_atlas;                                   // 1 / texels of each axis, bricks a row
     u32 view = 0;
     bool mirrored = false;
 };

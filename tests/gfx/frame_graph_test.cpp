@@ -1,0 +1,139 @@
+#include "gfx/context.h"
+#include "gfx/frame_graph.h"
+#include "gfx/program.h"
+#include "gfx/upload_ring.h"
+#include "platform/headless.h"
+
+#include <cstring>
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+namespace vitrail::gfx {
+
+static PassDesc pass(std::string name, std::vector<std::string> reads, std::vector<std::string> writes) {
+    return {std::move(name), std::move(reads), std::move(writes), [](const PassContext&) {}, ""};
+}
+
+static std::string refusal(const FrameGraph& graph) {
+    const Result<> result = graph.compile();
+    return result ? "" : result.error().message;
+}
+
+TEST(FrameGraph, RefusesWhatCannotBe) {
+    FrameGraph graph;
+    graph.add_target({"a", GL_RGBA8});
+    graph.add_target({"b", GL_RGBA8, 2});
+    graph.add_external("screen");
+    graph.add_pass(pass("one", {}, {"a"}));
+    EXPECT_EQ(refusal(graph), "");
+    auto with = [&](PassDesc p) {
+        FrameGraph g;
+        g.add_target({"a", GL_RGBA8});
+        g.add_target({"b", GL_RGBA8, 2});
+        g.add_target({"d", GL_DEPTH_COMPONENT32F});
+        g.add_external("screen");
+        g.add_pass(pass("one", {}, {"a"}));
+        g.add_pass(std::move(p));
+        return refusal(g);
+    };
+    EXPECT_EQ(with(pass("two", {"a"}, {"screen"})), "");
+    EXPECT_NE(with(pass("two", {"b"}, {"screen"})).find("before anything wrote"), std::string::npos);
+    EXPECT_NE(with(pass("two", {"x"}, {"screen"})).find("unknown"), std::string::npos);
+    EXPECT_NE(with(pass("two", {"a"}, {"x"})).find("unknown"), std::string::npos);
+    EXPECT_NE(with(pass("two", {"a"}, {})).find("nothing"), std::string::npos);
+    EXPECT_NE(with(pass("two", {"a"}, {"a"})).find("attached"), std::string::npos);
+    EXPECT_NE(with(pass("one", {}, {"b"})).find("second"), std::string::npos);
+    EXPECT_NE(with(pass("two", {}, {"a", "b"})).find("different sizes"), std::string::npos);
+    EXPECT_NE(with(pass("two", {}, {"a", "screen"})).find("external"), std::string::npos);
+    PassDesc tests_depth = pass("two", {}, {"a"});
+    tests_depth.depth_test = "d";
+    EXPECT_NE(with(tests_depth).find("before anything wrote"), std::string::npos);
+}
+
+class WithContext : public testing::Test {
+protected:
+    void SetUp() override {
+        auto made = platform::HeadlessContext::create();
+        if (!made) GTEST_SKIP() << made.error().message;
+        context_ = std::move(*made);
+    }
+    std::unique_ptr<platform::HeadlessContext> context_;
+};
+
+using Graphics = WithContext;
+
+TEST_F(Graphics, ContextTellsWhatItIs) {
+    const auto info = context_info();
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_GE(info->major * 10 + info->minor, 45u);
+    EXPECT_GE(info->texture_layers_max, 2048u);
+    EXPECT_FALSE(info->renderer.empty());
+}
+
+TEST_F(Graphics, ShaderErrorsNameProgramAndLine) {
+    const auto bad = build_program(
+        {"broken", "void main() { gl_Position = vec4(0); }\n", "\nvoid main() {\n  nonsense = 1;\n}\n", "", {}});
+    ASSERT_FALSE(bad);
+    EXPECT_EQ(bad.error().code, ErrorCode::invalid_argument);
+    EXPECT_NE(bad.error().message.find("fragment shader of broken"), std::string::npos) << bad.error().message;
+    EXPECT_NE(bad.error().message.find("nonsense = 1"), std::string::npos) << bad.error().message;
+    const auto good = build_program({"fine",
+                                     "void main() { gl_Position = vec4(0); }\n",
+                                     "layout(location = 0) out vec4 c;\nvoid main() { c = vec4(VALUE); }\n",
+                                     "",
+                                     {"VALUE 1.0"}});
+    EXPECT_TRUE(good) << good.error().message;
+}
+
+TEST_F(Graphics, TargetsFollowTheSize) {
+    FrameGraph graph;
+    graph.add_target({"color", GL_RGBA8});
+    graph.add_target({"half", GL_RGBA16F, 2});
+    graph.add_target({"depth", GL_DEPTH_COMPONENT32F});
+    u32 seen_width = 0, seen_half = 0;
+    graph.add_pass({"draw", {}, {"color", "depth"}, [&](const PassContext& c) { seen_width = c.width; }, ""});
+    graph.add_pass({"blur", {"color"}, {"half"}, [&](const PassContext& c) { seen_half = c.width; }, ""});
+    ASSERT_TRUE(graph.compile());
+    for (u32 width : {64u, 333u, 1u}) {
+        ASSERT_TRUE(graph.resize(width, 40));
+        graph.execute();
+        EXPECT_EQ(seen_width, width);
+        EXPECT_EQ(seen_half, (width + 1) / 2);
+        EXPECT_EQ(graph.target("color").width, width);
+    }
+    EXPECT_EQ(graph.target_bytes(), 1 * 40 * 4 + 1 * 20 * 8 + 1 * 40 * 4u);
+    EXPECT_EQ(take_gl_error(), "");
+}
+
+TEST_F(Graphics, UploadRingKeepsWhatItWasGiven) {
+    UploadRing ring(512);
+    Buffer out = make_buffer(4096, GL_DYNAMIC_STORAGE_BIT);
+    for (u32 frame = 0; frame < 12; ++frame) {
+        ring.begin_frame();
+        for (u32 part = 0; part < 4; ++part) { // more than fits: it must grow
+            const u32 bytes = 100 + frame * 60;
+            const auto slice = ring.allocate(bytes, 256);
+            EXPECT_EQ(slice.offset % 256, 0u);
+            std::memset(slice.data, int(frame * 4 + part), bytes);
+            glCopyNamedBufferSubData(slice.buffer, out.name(), GLintptr(slice.offset), part * 1024, bytes);
+            u8 back = 0;
+            glGetNamedBufferSubData(out.name(), part * 1024 + bytes - 1, 1, &back);
+            EXPECT_EQ(back, frame * 4 + part);
+        }
+        ring.end_frame();
+    }
+    EXPECT_EQ(take_gl_error(), "");
+}
+
+TEST_F(Graphics, HandlesMoveAndFree) {
+    Texture a = make_texture_2d(GL_RGBA8, 8, 8, 4);
+    EXPECT_EQ(a.bytes(), (64 + 16 + 4 + 1) * 4u);
+    const u32 name = a.name();
+    Texture b = std::move(a);
+    EXPECT_FALSE(a);
+    EXPECT_EQ(b.name(), name);
+    b.reset();
+    EXPECT_FALSE(glIsTexture(name));
+}
+
+} // namespace vitrail::gfx
