@@ -9,29 +9,23 @@ FRAMES = 16
 
 
 def water(name, flow=False):
-    """Caustics: the borders of slowly circling cells. Gray, so that the biome's tint colors it."""
-    r = rng("water")
-    pts = points("water", 3, 3, .8)
-    ph, rad = r.uniform(0, 6.28, len(pts)), r.uniform(1.5, 2.6, len(pts))
-    pal = gray(.62, 1., 8)
-    drift = loop("water/d", 3, 3, FRAMES)
+    """Caustics: bright ridges where slowly changing swells cross zero. Gray, so that the biome's tint colors it."""
+    pal = gray(.62, 1., 9)
+    wx, wy = loop("water/wx", 3, 3, FRAMES), loop("water/wy", 3, 3, FRAMES)
     frames = []
     for k in range(FRAMES):
-        a = 2 * np.pi * k / FRAMES
         t = Tex(name, .06)
-        moved = pts + np.stack([np.cos(a + ph) * rad, np.sin(a + ph) * rad], 1)
-        wx, wy = X + 2.8 * drift[k], Y - 2.8 * drift[(k + 4) % FRAMES]
+        x, y = X + 3.4 * wx[k], Y + 3.4 * wy[k]
         if flow:
-            wx, wy = wx * 1.0, (wy - 32 * k / FRAMES)
-            c = Cells(pts % N, sx=1., sy=.55, x=wx, y=wy)
-        else:
-            c = Cells(moved % N, x=wx, y=wy)
-        e = c.edge
-        line = np.exp(-(e / .9) ** 2) * np.clip(.55 + .75 * drift[(k + 7) % FRAMES], 0, 1)
-        soft = ss(5.5, 0, e)
-        t.fill(np.clip(.22 + .40 * soft + .34 * line, 0, .999), pal, 1)
-        t.h = 1.1 * soft + .5 * line
-        t.a = np.round(np.clip(.66 + .12 * line + .05 * soft, 0, 1) * 32) / 32
+            y = y - N * k / FRAMES
+        tall = 2 if flow else 3
+        swell = [value("water/a", 3, tall, x, y), value("water/b", 4, tall + 1, x + 9, y - 5)]
+        ridge = [np.clip(1 - np.abs(v) / .42, 0, 1) for v in swell]
+        bright = .66 * ridge[0] ** 1.6 + .44 * ridge[1] ** 1.6
+        depth = .5 * (swell[0] + swell[1])
+        t.fill(np.clip(.19 + .24 * depth + .80 * bright, 0, .999), pal, 2)
+        t.h = 1.5 * depth + .5 * bright
+        t.a = np.round(np.clip(.64 + .14 * bright, 0, 1) * 32) / 32
         frames.append(t)
     return frames
 
@@ -50,13 +44,13 @@ def lava(name, flow=False):
     for k in range(FRAMES):
         a = 2 * np.pi * k / FRAMES
         t = Tex(name, .6)
-        wx, wy = X + 2.6 * swirl[k], Y + 2.6 * swirl[(k + 4) % FRAMES]
+        wx, wy = X + 1.7 * swirl[k], Y + 1.7 * swirl[(k + 4) % FRAMES]
         if flow:
             c = Cells(pts % N, sx=1, sy=.6, x=wx, y=wy - 32 * k / FRAMES)
         else:
             c = Cells((pts + np.stack([np.cos(a + ph), np.sin(a + ph)], 1) * rad[:, None]) % N, x=wx, y=wy)
-        crust = ss(.6, 4.2, c.edge)
-        f = .80 - .46 * crust + .20 * heat[k] + .10 * value("lava/g", 8, 8, wx, wy)
+        crust = ss(.6, 4.6, c.edge)
+        f = .82 - .50 * crust + .13 * heat[k] + .10 * value("lava/g", 8, 8, wx, wy)
         t.fill(np.clip(f, 0, .999), LAVA, 1)
         t.h = 1.8 * crust
         t.glow(np.ones_like(X, bool), 1.)

@@ -50,12 +50,12 @@ def raw(name, color, spot):
 COPPER = {"": ("#c06b4c", None, 0., .32), "exposed_": ("#a67a63", "#8d9a7c", -.34, .5), "weathered_": ("#6c9a72", "#8f7a60", -.36, .7), "oxidized_": ("#50a084", "#78b89c", -.30, .8)}
 
 
-def patina_over(t, stage):
+def patina_over(t, stage, keep=None):
     _, spot, amount, rough = COPPER[stage]
     t.r[:] = np.maximum(t.r, rough)
     if spot:
         f = fbm(stage + "pat", 4, 4, 3)
-        m = f < amount
+        m = f < amount if keep is None else (f < amount) & ~keep
         lum = t.rgb.mean(-1)
         t.shade(m & (t.a > 0), ramp(spot, .16, .14, 8), np.clip((lum - lum.min()) / max(np.ptp(lum), .01), 0, .99))
     return t
@@ -89,6 +89,7 @@ def copper(name, stage, kind):
         if lit:
             t.glow(core, {"": 1., "exposed_": .8, "weathered_": .6, "oxidized_": .4}[stage])
         t.h += cage * 1.5
+        return patina_over(t, stage, euc < 11)
     elif kind in ("door_top", "door_bottom"):
         t = door("iron_" + kind, c, "grid", "panels", kind == "door_top", lift(c, -.15), rough)
     else:

@@ -195,7 +195,7 @@ def farmland(name, wet):
 
 
 def path(name):
-    t = dirt(name, "#a08148", 6, "#b59d6e", 5, dark=.1, light=.08)
+    t = dirt(name, "#a08148", 3, "#a98f5c", 6, dark=.1, light=.08)
     return t
 
 

@@ -46,7 +46,7 @@ def bark(name, base, style, accent):
         t.fill(np.clip(f, 0, .99), ramp(base, .17, .15, 8), 1)
         t.h = 2.6 * np.sqrt(np.clip(seam * 2, 0, 1)) - 1.0 * broken
         if style == "fungus":
-            vein = (np.abs(fbm(s + "/v", 3, 3, 2, w, Y * 1.0)) < .07)
+            vein = (np.abs(fbm(s + "/v", 3, 4, 2, w, Y * 1.0)) < .05)
             rr = ramp(accent, .2, .16, 6)
             t.shade(vein, rr, np.clip(.5 + .6 * fbm(s + "/vv", 4, 4, 2), 0, .99))
             t.put(roll(vein, 1, 1) & ~vein, t.rgb * .75)
