@@ -1,7 +1,7 @@
 -- Colors of every biome. Grass and foliage follow warmth and rain over three corner colors, as a whole, so that biomes that meet
 -- belong together; a biome with a character of its own overrides what it must.
 
-local GRASS = { cold = { 118, 160, 122 }, dry = { 190, 176, 88 }, wet = { 78, 164, 52 } }
+local GRASS = { cold = { 118, 160, 122 }, dry = { 172, 174, 84 }, wet = { 78, 164, 52 } }
 local LEAF = { cold = { 88, 138, 100 }, dry = { 168, 158, 62 }, wet = { 52, 140, 38 } }
 
 local function blend(corners, t, d)
@@ -31,18 +31,21 @@ local swamp = { grass = { 102, 118, 60 }, foliage = { 96, 114, 54 }, water = { 9
 local dark = { grass = { 84, 128, 56 }, foliage = { 66, 116, 44 } }
 local badlands = { grass = { 150, 134, 76 }, foliage = { 158, 128, 72 }, fog = { 226, 206, 186 } }
 local cherry = { grass = { 176, 212, 102 }, foliage = { 178, 210, 104 }, water = { 92, 170, 214 }, fog = { 232, 216, 236 } }
+-- The green that the sides of grass are painted with: it must be that of the plains.
+local plains = { grass = { 118, 170, 72 } }
+local savanna = { grass = { 186, 168, 84 }, foliage = { 160, 158, 68 } }
 local meadow = { grass = { 122, 186, 96 }, water = { 40, 118, 200 } }
 
 for _, b in ipairs {
   { "the_void", 0.5, 0.5 },
-  { "plains", 0.8, 0.4 }, { "sunflower_plains", 0.8, 0.4 }, { "snowy_plains", 0, 0.5 }, { "ice_spikes", 0, 0.5, { water = frozen_water } },
+  { "plains", 0.8, 0.4, plains }, { "sunflower_plains", 0.8, 0.4, plains }, { "snowy_plains", 0, 0.5 }, { "ice_spikes", 0, 0.5, { water = frozen_water } },
   { "desert", 2, 0, { fog = { 232, 218, 190 }, water = { 54, 150, 190 } } },
   { "swamp", 0.8, 0.9, swamp }, { "mangrove_swamp", 0.8, 0.9, merge(swamp, { foliage = { 124, 150, 56 }, water = { 62, 122, 106 } }) },
   { "forest", 0.7, 0.8 }, { "flower_forest", 0.7, 0.8 }, { "birch_forest", 0.6, 0.6 }, { "dark_forest", 0.7, 0.8, dark },
   { "pale_garden", 0.7, 0.8, { grass = { 122, 130, 116 }, foliage = { 136, 142, 130 }, water = { 118, 136, 152 }, sky = { 168, 176, 184 }, fog = { 150, 156, 160 } } },
   { "old_growth_birch_forest", 0.6, 0.6 }, { "old_growth_pine_taiga", 0.3, 0.8 }, { "old_growth_spruce_taiga", 0.25, 0.8 },
   { "taiga", 0.25, 0.8 }, { "snowy_taiga", -0.5, 0.4, { water = frozen_water } },
-  { "savanna", 2, 0 }, { "savanna_plateau", 2, 0 }, { "windswept_savanna", 2, 0 },
+  { "savanna", 2, 0, savanna }, { "savanna_plateau", 2, 0, savanna }, { "windswept_savanna", 2, 0, savanna },
   { "windswept_hills", 0.2, 0.3 }, { "windswept_gravelly_hills", 0.2, 0.3 }, { "windswept_forest", 0.2, 0.3 },
   { "jungle", 0.95, 0.9 }, { "sparse_jungle", 0.95, 0.8 }, { "bamboo_jungle", 0.95, 0.9 },
   { "badlands", 2, 0, badlands }, { "eroded_badlands", 2, 0, badlands }, { "wooded_badlands", 2, 0, badlands },
@@ -88,7 +91,7 @@ for _, b in ipairs {
   { "crystals", 0.5, 0.4, { grass = { 118, 164, 138 }, foliage = { 104, 158, 142 }, water = { 76, 130, 200 }, sky = { 128, 152, 236 }, fog = { 204, 200, 240 } } },
   { "oasis", 1.2, 0.7, { grass = { 88, 168, 56 }, foliage = { 76, 156, 50 }, water = { 44, 170, 186 } } },
   { "desert", 2, 0, { fog = { 234, 220, 192 } } },
-  { "plains", 0.8, 0.4 },
+  { "plains", 0.8, 0.4, plains },
   { "mountains", 0.3, 0.5, { grass = { 116, 164, 92 }, fog = { 200, 216, 236 } } },
   { "none", 0.5, 0.5 },
   { "crystal_caves", 0.5, 0.4, { fog = { 60, 50, 90 }, water = { 90, 110, 200 } } },
