@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
@@ -50,7 +51,9 @@ namespace {
 struct Connection {
     sqlite::Db db;
     std::array<sqlite::Statement, kTables> get, put, erase, scan, scan_to_end;
-    sqlite::Statement begin, commit;
+    // A snapshot kept open from one read to the next, and the count of commits it was opened at.
+    bool in_snapshot = false;
+    u64 snapshot_commits = 0;
 };
 
 class SqliteStore final : public WorldStore {
@@ -78,6 +81,13 @@ private:
     };
     Result<std::unique_ptr<Connection>> connect(bool writable) const;
     Result<std::unique_ptr<Connection>> borrow();
+    Result<> refresh_snapshot(Connection& c) const;
+    static void end_snapshot(Connection& c);
+    tl::unexpected<Error> read_error(Connection& c, int code) const {
+        auto e = sqlite::error(c.db.get(), code, folder_, "read");
+        end_snapshot(c);
+        return e;
+    }
     Result<u32> format_of(::sqlite3* db) const;
     Result<> migrate(::sqlite3* db, u32 from) const;
     Result<::sqlite3_stmt*> statement(Connection& c, std::array<sqlite::Statement, kTables>& kind, Table table,
@@ -89,6 +99,7 @@ private:
     bool immutable_ = false; // a folder that cannot hold the log's index: the file alone is read
     FolderLock lock_;
     std::mutex write_mutex_, pool_mutex_;
+    std::atomic<u64> commits_{0};
     std::unique_ptr<Connection> writer_;
     std::vector<std::unique_ptr<Connection>> pool_;
 };
@@ -210,14 +221,36 @@ SqliteStore::~SqliteStore() {
 
 Result<std::unique_ptr<Connection>> SqliteStore::borrow() {
     {
-        std::lock_guard lock(pool_mutex_);
+        std::unique_lock lock(pool_mutex_);
         if (!pool_.empty()) {
             auto c = std::move(pool_.back());
             pool_.pop_back();
+            lock.unlock();
+            VX_TRY(refresh_snapshot(*c));
             return c;
         }
     }
-    return connect(false);
+    VX_TRY_ASSIGN(auto c, connect(false));
+    VX_TRY(refresh_snapshot(*c));
+    return c;
+}
+
+// Opening a snapshot costs as much as a read itself (locks of the operating system), so it lives until the next commit.
+// Only where we hold the world's lock: else others commit, and we would not know.
+Result<> SqliteStore::refresh_snapshot(Connection& c) const {
+    if (options_.read_only) return {};
+    const u64 commits = commits_.load(std::memory_order_acquire);
+    if (c.in_snapshot && c.snapshot_commits == commits) return {};
+    end_snapshot(c);
+    VX_TRY(sqlite::run(c.db.get(), "BEGIN", folder_, "read"));
+    c.in_snapshot = true;
+    c.snapshot_commits = commits;
+    return {};
+}
+
+void SqliteStore::end_snapshot(Connection& c) {
+    if (c.in_snapshot) sqlite3_exec(c.db.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+    c.in_snapshot = false;
 }
 
 Result<::sqlite3_stmt*> SqliteStore::statement(Connection& c, std::array<sqlite::Statement, kTables>& kind, Table table,
@@ -242,7 +275,7 @@ Result<std::optional<Bytes>> SqliteStore::get(Table table, ByteView key) {
         out.emplace(value.begin(), value.end());
     }
     sqlite3_reset(s);
-    if (code != SQLITE_ROW && code != SQLITE_DONE) return sqlite::error(c.db.get(), code, folder_, "read");
+    if (code != SQLITE_ROW && code != SQLITE_DONE) return read_error(c, code);
     return out;
 }
 
@@ -262,7 +295,7 @@ Result<> SqliteStore::scan(Table table, ByteView from, ByteView to, const ScanCa
     while ((code = sqlite3_step(s)) == SQLITE_ROW)
         if (!callback(sqlite::blob(s, 0), sqlite::blob(s, 1))) break;
     sqlite3_reset(s);
-    if (code != SQLITE_ROW && code != SQLITE_DONE) return sqlite::error(c.db.get(), code, folder_, "read");
+    if (code != SQLITE_ROW && code != SQLITE_DONE) return read_error(c, code);
     return {};
 }
 
@@ -284,6 +317,12 @@ Result<> SqliteStore::write(Connection& c, const WriteBatch::Write& write) {
 Result<> SqliteStore::commit(const WriteBatch& batch) {
     if (options_.read_only) return fail(ErrorCode::denied, fmt::format("world {} is open for reading only", folder_));
     std::lock_guard lock(write_mutex_);
+    {
+        // Old snapshots would keep the log from being written back and begun anew.
+        std::lock_guard pool_lock(pool_mutex_);
+        for (auto& reader : pool_)
+            end_snapshot(*reader);
+    }
     Connection& c = *writer_;
     ::sqlite3* db = c.db.get();
     VX_TRY(sqlite::run(db, "BEGIN IMMEDIATE", folder_, "save"));
@@ -292,6 +331,7 @@ Result<> SqliteStore::commit(const WriteBatch& batch) {
         VX_TRY(write(c, w));
     VX_TRY(sqlite::run(db, "COMMIT", folder_, "save"));
     transaction.done();
+    commits_.fetch_add(1, std::memory_order_release);
     return {};
 }
 
