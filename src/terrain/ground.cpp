@@ -33,7 +33,7 @@ TerrainBiome biome_of(const TerrainKeys& keys, const LandPoint& land, i32 x, i32
         if (land.river > 0.25f || land.continent > 0.03f) return river;
         return land.height < 42.0f ? deep_ocean : ocean;
     }
-    if (land.height < 66.2f && land.continent < 0.03f && land.mountain < 0.2f) return cold ? snowy_beach : beach;
+    if (land.height < 65.3f && land.continent < 0.0f && land.mountain < 0.2f) return cold ? snowy_beach : beach;
     if (land.mountain > 0.25f && land.height > 96.0f) {
         if (cold) return land.height > 158.0f ? jagged_peaks : snowy_slopes;
         return land.height > 132.0f + patch * 60.0f ? stony_peaks : meadow;
@@ -65,7 +65,7 @@ void survey_land(ColumnCanvas& c) {
         for (i32 x = 1 - m; x < end - 1; ++x) {
             const float h = c.land_at(x, z).height;
             float most = 0;
-            for (const auto [dx, dz] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+            for (const auto& [dx, dz] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
                 most = std::max(most, magnitude(c.land_at(x + dx, z + dz).height - h));
             c.land_at(x, z).slope = most;
         }
@@ -113,7 +113,7 @@ Soil soil_of(const ColumnCanvas& c, const ColumnCanvas::Land& l, i32 x, i32 z) {
     default:
         break;
     }
-    if (l.slope > 1.75f + fine * 0.25f && l.height > 72.0f) return {stone, stone, 0};
+    if (l.slope > 2.0f + n * 0.5f + fine * 0.25f && l.height > 72.0f) return {stone, stone, 0};
     if (wet || l.height < 63.6f) return n + fine * 0.4f > 0.0f ? Soil{sand, sand, depth} : Soil{gravel, gravel, 2};
     if (l.river > 0.02f && l.height < 65.2f) return fine > 0.1f ? Soil{sand, sand, 3} : Soil{grass_block, dirt, depth};
     if (l.biome == TerrainBiome::taiga && fine + n > 0.55f) return {podzol, dirt, depth};
@@ -154,7 +154,14 @@ void fill_ground(ColumnCanvas& c) {
     for (i32 z = 0; z < 16; ++z)
         for (i32 x = 0; x < 16; ++x) {
             const ColumnCanvas::Land& l = c.land_at(x, z);
-            const Soil soil = soil_of(c, l, x, z);
+            Soil soil = soil_of(c, l, x, z);
+            if (soil.depth == 0) { // bare rock shows its kinds and loose stone
+                const float kind =
+                    noise2(c.keys.rock_kind, fixed_block(c.base_x + x), fixed_block(c.base_z + z), 4) +
+                    0.4f * noise2(c.keys.rock_kind, fixed_block(c.base_x + x), fixed_block(c.base_z + z), 2);
+                const TerrainBlock rock = kind > 0.6f ? andesite : kind < -0.75f ? diorite : stone;
+                soil = kind > 0.2f && kind < 0.32f && l.slope < 2.0f ? Soil{gravel, gravel, 1} : Soil{rock, rock, 3};
+            }
             for (i32 d = 0; d < soil.depth; ++d)
                 c.blocks[ColumnCanvas::index(x, l.ground_y - 1 - d, z)] = d == 0 ? soil.top : soil.under;
             if (l.cold && l.ground_y < kTerrainSeaLevel)

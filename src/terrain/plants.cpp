@@ -40,10 +40,10 @@ void grow_on_grass(ColumnCanvas& c, i32 x, i32 y, i32 z, const ColumnCanvas::Lan
     float grass = 0, flowers = 0;
     switch (l.biome) {
     case TerrainBiome::plains:
-        grass = 0.16f + 0.16f * lush, flowers = drift > 0.15f ? 0.09f : 0.006f;
+        grass = 0.11f + 0.13f * lush, flowers = drift > 0.3f ? 0.06f : 0.004f;
         break;
     case TerrainBiome::meadow:
-        grass = 0.2f + 0.15f * lush, flowers = drift > -0.1f ? 0.14f : 0.02f;
+        grass = 0.14f + 0.12f * lush, flowers = drift > 0.0f ? 0.1f : 0.015f;
         break;
     case TerrainBiome::forest:
         grass = 0.08f + 0.08f * lush, flowers = drift > 0.3f ? 0.06f : 0.006f;

@@ -88,7 +88,7 @@ VX_HD constexpr i64 fixed_offset(float blocks) {
 // Height of the land by nearness to the sea alone.
 VX_HD constexpr float continent_height(float c) {
     constexpr float at[] = {-1.3f, -0.75f, -0.42f, -0.2f, -0.1f, 0.0f, 0.35f, 1.3f};
-    constexpr float height[] = {24.0f, 36.0f, 48.0f, 58.5f, 62.5f, 66.0f, 71.0f, 84.0f};
+    constexpr float height[] = {24.0f, 34.0f, 47.0f, 58.0f, 62.8f, 67.0f, 72.0f, 86.0f};
     if (c <= at[0]) return height[0];
     for (i32 i = 1; i < 8; ++i)
         if (c < at[i]) return lerp(height[i - 1], height[i], (c - at[i - 1]) / (at[i] - at[i - 1]));
@@ -110,11 +110,11 @@ VX_HD constexpr LandPoint land_at(const TerrainKeys& k, i32 block_x, i32 block_z
     const float rough = fractal2(k.mountain, wx, wz, 9, 2);
     const float inland = smoothstep(0.02f, 0.45f, p.continent);
     const float land = smoothstep(-0.16f, 0.08f, p.continent);
-    p.mountain = smoothstep(0.22f, 0.85f, rough) * inland;
+    p.mountain = smoothstep(0.0f, 0.66f, rough) * inland;
 
     const float hills = fractal2(k.hills, x, z, 7, 4);
     float height = continent_height(p.continent);
-    height += hills * lerp(3.5f, lerp(2.6f, 10.0f, smoothstep(-0.5f, 0.35f, rough)), land);
+    height += hills * lerp(3.5f, lerp(3.0f, 14.0f, smoothstep(-0.55f, 0.3f, rough)), land);
     // Ridges: crests where the noise crosses zero, finer ones hung on the coarse.
     float crest = 0, amplitude = 0.62f, weight = 1;
     for (i32 o = 0; o < 4; ++o) {
@@ -125,6 +125,9 @@ VX_HD constexpr LandPoint land_at(const TerrainKeys& k, i32 block_x, i32 block_z
         amplitude *= 0.5f;
     }
     height += p.mountain * (14.0f + 128.0f * crest * (0.45f + 0.55f * p.mountain));
+    // Crags on the slopes.
+    if (p.mountain > 0)
+        height += p.mountain * crest * (noise2(k.ridge, x, z, 4) * 7.0f + magnitude(noise2(k.ridge, x, z, 3)) * 3.0f);
     p.dry = smoothstep(0.18f, 0.42f, p.temperature) * smoothstep(0.22f, -0.05f, p.moisture);
     if (p.dry > 0 && land > 0) {
         const float d = 1.0f - clamp(magnitude(noise2(k.dune, wx, wz, 5)) * 1.4f, 0.0f, 1.0f);
@@ -132,9 +135,9 @@ VX_HD constexpr LandPoint land_at(const TerrainKeys& k, i32 block_x, i32 block_z
     }
     const float course = magnitude(fractal2(k.river, wx, wz, 9, 3));
     const float flows = land * (1.0f - smoothstep(0.18f, 0.6f, p.mountain));
-    const float valley = smoothstep(0.34f, 0.05f, course) * flows;
+    const float valley = smoothstep(0.30f, 0.04f, course) * flows;
     if (height > 64.5f) height = lerp(height, 64.5f + (height - 64.5f) * 0.22f, valley);
-    p.river = smoothstep(0.075f, 0.035f, course) * flows;
+    p.river = smoothstep(0.058f, 0.026f, course) * flows;
     if (height > 56.5f) height = lerp(height, 56.5f, p.river);
     p.height = clamp(height, 12.0f, 268.0f);
     return p;

@@ -23,7 +23,7 @@ struct Seedling {
 
 Seedling seedling_in(const TerrainKeys& keys, i32 cell_x, i32 cell_z) {
     const u64 h = random_u64({keys.seed, 0x7e220301u}, cell_x, 0, cell_z);
-    return {cell_x * kCell + i32(h & 3), cell_z * kCell + i32(h >> 2 & 3), mix64(h)};
+    return {cell_x * kCell + i32((h & 0xffff) % 3), cell_z * kCell + i32((h >> 16 & 0xffff) % 3), mix64(h)};
 }
 
 float part_of(u64 dice, u32 shift) {
@@ -44,7 +44,7 @@ Growth growth_of(const TerrainKeys& keys, const Seedling& s, TerrainBiome biome,
         return roll < 0.36f * grove ? (kind < 0.06f ? Growth::oak : Growth::birch) : Growth::none;
     case TerrainBiome::taiga:
         if (roll > 0.985f && kind < 0.3f) return Growth::boulder;
-        return roll < 0.4f * grove ? Growth::spruce : Growth::none;
+        return roll < 0.32f * grove ? Growth::spruce : Growth::none;
     case TerrainBiome::snowy_taiga:
         return roll < 0.26f * grove ? Growth::spruce : Growth::none;
     case TerrainBiome::plains:
@@ -106,7 +106,7 @@ struct Brush {
 };
 
 void draw_oak(const Brush& b) {
-    const i32 height = 4 + i32(b.dice >> 32 & 3) - i32(b.dice >> 34 & 1);
+    const i32 height = 4 + i32((b.dice >> 32) % 3);
     b.trunk(height, oak_log);
     b.crown(height, oak_leaves);
 }
@@ -154,7 +154,7 @@ void draw_spruce(const Brush& b) {
                 b.leaf(dx, dy, dz, spruce_leaves);
             }
         if (radius >= limit) {
-            radius = limit > 2 ? 1 : 0;
+            radius = 1;
             limit = std::min(limit + 1, widest);
         } else {
             ++radius;

@@ -23,14 +23,19 @@ static __m512i map_64_nibbles(const u64* words, __m512i table) {
     return _mm512_shuffle_epi8(table, cells);
 }
 
+// maskz: g++ 12 warns of its own plain broadcast.
+static __m512i load_table(const u8* table16) {
+    return _mm512_maskz_broadcast_i32x4(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(table16)));
+}
+
 void map_nibbles(const u64* words, const u8* table16, u8* out) {
-    const __m512i table = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(table16)));
+    const __m512i table = load_table(table16);
     for (u32 w = 0; w < 64; ++w)
         _mm512_storeu_si512(out + w * 64, map_64_nibbles(words + w * 4, table));
 }
 
 void classify_nibbles(const u64* words, const u8* table16, u32 count, u64* out) {
-    const __m512i table = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(table16)));
+    const __m512i table = load_table(table16);
     for (u32 w = 0; w < 64; ++w) {
         const __m512i classes = map_64_nibbles(words + w * 4, table);
         for (u32 k = 0; k < count; ++k)
