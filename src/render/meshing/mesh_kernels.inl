@@ -69,6 +69,22 @@ inline u64 equal_bytes(const u8* a, const u8* b) {
 #endif
 }
 
+#if defined(__AVX512VBMI__)
+// A table of 256 bytes in registers.
+struct ByteTable {
+    __m512i part[4];
+    explicit ByteTable(const u8* t) {
+        for (u32 i = 0; i < 4; ++i)
+            part[i] = _mm512_loadu_si512(t + i * 64);
+    }
+    __m512i operator()(__m512i index) const {
+        const __m512i low = _mm512_permutex2var_epi8(part[0], index, part[1]);
+        const __m512i high = _mm512_permutex2var_epi8(part[2], index, part[3]);
+        return _mm512_mask_blend_epi8(_mm512_movepi8_mask(index), low, high);
+    }
+};
+#endif
+
 void translate(const u8* __restrict in, u32 palette_size, const u8* __restrict table, u8* __restrict out) {
 #if defined(__AVX512BW__)
     if (palette_size <= 16) {
@@ -77,6 +93,12 @@ void translate(const u8* __restrict in, u32 palette_size, const u8* __restrict t
             _mm512_storeu_si512(out + i, _mm512_shuffle_epi8(t, _mm512_loadu_si512(in + i)));
         return;
     }
+#if defined(__AVX512VBMI__)
+    const ByteTable lookup(table);
+    for (u32 i = 0; i < 4096; i += 64)
+        _mm512_storeu_si512(out + i, lookup(_mm512_loadu_si512(in + i)));
+    return;
+#endif
 #elif defined(__AVX2__)
     if (palette_size <= 16) {
         const __m256i t = _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(table)));
@@ -128,6 +150,29 @@ inline void classify_row(const u64* words, u32 bits, u32 row, const u8* table, u
 #endif
     u32 a = 0, b = 0;
     const u32 mask = (1u << bits) - 1;
+    if (bits == 1) {
+        u16 v;
+        std::memcpy(&v, bytes, sizeof v);
+        const u32 set = v, clear = ~set;
+        first = u16((set & (0u - (table[1] & 1u))) | (clear & (0u - (table[0] & 1u))));
+        second = u16((set & (0u - (table[1] >> 1 & 1u))) | (clear & (0u - (table[0] >> 1 & 1u))));
+        return;
+    }
+#if defined(__BMI2__)
+    if (bits == 2) {
+        u32 v;
+        std::memcpy(&v, bytes, sizeof v);
+        const u32 low = _pext_u32(v, 0x55555555u), high = _pext_u32(v, 0xaaaaaaaau);
+        const u32 cells[4] = {~low & ~high, low & ~high, ~low & high, low & high};
+        for (u32 p = 0; p < 4; ++p) {
+            a |= cells[p] & (0u - (table[p] & 1u));
+            b |= cells[p] & (0u - (table[p] >> 1 & 1u));
+        }
+        first = u16(a);
+        second = u16(b);
+        return;
+    }
+#endif
     for (u32 x = 0; x < 16; ++x) {
         const u32 at = x * bits;
         const u32 c = table[u32(bytes[at >> 3]) >> (at & 7) & mask];
@@ -140,6 +185,20 @@ inline void classify_row(const u64* words, u32 bits, u32 row, const u8* table, u
 
 void classify_rows(const u64* words, u32 bits, const u8* table, u32 first_row, u32 row_step, u32 count, u16* first,
                    u16* second) {
+#if defined(__AVX512VBMI__)
+    if (bits == 8) {
+        const ByteTable lookup(table);
+        const u8* bytes = reinterpret_cast<const u8*>(words);
+        for (u32 i = 0; i < count; ++i) {
+            const void* row = bytes + (first_row + i * row_step) * 16;
+            const __m128i c = _mm512_castsi512_si128(
+                lookup(_mm512_castsi128_si512(_mm_loadu_si128(static_cast<const __m128i*>(row)))));
+            first[i] = u16(_mm_movemask_epi8(_mm_slli_epi16(c, 7)));
+            second[i] = u16(_mm_movemask_epi8(_mm_slli_epi16(c, 6)));
+        }
+        return;
+    }
+#endif
     for (u32 i = 0; i < count; ++i)
         classify_row(words, bits, first_row + i * row_step, table, first[i], second[i]);
 }
@@ -305,54 +364,63 @@ template <bool by_y, bool occlusion>
 inline void find_faces(const DirectionJob& job, FaceRows& out) {
     const i32 step = job.face & 1 ? 1 : -1;
     alignas(64) u32 level_v[256 + 16]; // faces whose occlusion does not change along v
+    // Rows are copied to arrays of this function first: the compiler then knows that nothing overlaps.
+    using Row = u32[16];
+    const auto copy = [](Row& to, const u32* from) { std::memcpy(to, from, sizeof(Row)); };
     for (u32 i = 0; i < 16; ++i) {
-        const u32* c = &job.cells->rows[i + 1][1];
-        const u32* b = by_y ? &job.blockers->rows[i32(i) + 1 + step][1] : &job.blockers->rows[i + 1][1 + step];
-        const u16* eu = job.equal_u ? job.equal_u->data() + i * 16 : nullptr;
-        u32* faces = out.faces + i * 16;
-        u32* along = out.along_u + i * 16;
-        u32* level = level_v + i * 16;
-        const u32 all_equal = eu ? 0u : 0xffffu;
-        alignas(64) static constexpr u16 kNone[16] = {};
-        const u16* equal = eu ? eu : kNone;
+        alignas(64) Row c, b, equal, faces, along, level;
+        copy(c, &job.cells->rows[i + 1][1]);
+        copy(b, by_y ? &job.blockers->rows[i32(i) + 1 + step][1] : &job.blockers->rows[i + 1][1 + step]);
+        if (job.equal_u) {
+            u16 bits[16];
+            std::memcpy(bits, job.equal_u->data() + i * 16, sizeof bits);
+            for (u32 j = 0; j < 16; ++j)
+                equal[j] = bits[j];
+        } else
+            std::memset(equal, 0xff, sizeof equal);
         if constexpr (occlusion) {
+            alignas(64) Row lo, mid, hi;
             const i32 front = i32(i) + 1 + step;
-            const u32* lo = by_y ? &job.occluders->rows[front][0] : &job.occluders->rows[i][1 + step];
-            const u32* mid = by_y ? &job.occluders->rows[front][1] : &job.occluders->rows[i + 1][1 + step];
-            const u32* hi = by_y ? &job.occluders->rows[front][2] : &job.occluders->rows[i + 2][1 + step];
+            copy(lo, by_y ? &job.occluders->rows[front][0] : &job.occluders->rows[i][1 + step]);
+            copy(mid, by_y ? &job.occluders->rows[front][1] : &job.occluders->rows[i + 1][1 + step]);
+            copy(hi, by_y ? &job.occluders->rows[front][2] : &job.occluders->rows[i + 2][1 + step]);
             for (u32 j = 0; j < 16; ++j) {
                 const u32 f = (c[j] & ~b[j]) >> 1 & 0xffff;
-                const Count k00 = count_of(mid[j], lo[j] >> 1, lo[j]),
-                            k10 = count_of(mid[j] >> 2, lo[j] >> 1, lo[j] >> 2);
-                const Count k01 = count_of(mid[j], hi[j] >> 1, hi[j]),
-                            k11 = count_of(mid[j] >> 2, hi[j] >> 1, hi[j] >> 2);
-                const u32 level_u =
-                    ~((k00.one ^ k10.one) | (k00.two ^ k10.two) | (k01.one ^ k11.one) | (k01.two ^ k11.two));
-                const u32 lv = ~((k00.one ^ k01.one) | (k00.two ^ k01.two) | (k10.one ^ k11.one) | (k10.two ^ k11.two));
+                const Count k00 = count_of(mid[j], lo[j] >> 1, lo[j]);
+                const Count k10 = count_of(mid[j] >> 2, lo[j] >> 1, lo[j] >> 2);
+                const Count k01 = count_of(mid[j], hi[j] >> 1, hi[j]);
+                const Count k11 = count_of(mid[j] >> 2, hi[j] >> 1, hi[j] >> 2);
+                const u32 bent_u =
+                    (k00.one ^ k10.one) | (k00.two ^ k10.two) | (k01.one ^ k11.one) | (k01.two ^ k11.two);
+                const u32 bent_v =
+                    (k00.one ^ k01.one) | (k00.two ^ k01.two) | (k10.one ^ k11.one) | (k10.two ^ k11.two);
                 // Two faces beside each other count the same cells at the corners they share, and so equal levels
                 // within each make them equal - but not behind leaves, which occlude and yet hide no face: those stay
                 // single.
                 const u32 free = f & ~(mid[j] >> 1);
-                const u32 fu = free & level_u;
+                const u32 level_u = free & ~bent_u;
                 faces[j] = f;
-                along[j] = fu & fu >> 1 & (equal[j] | all_equal);
-                level[j] = free & lv;
+                along[j] = level_u & level_u >> 1 & equal[j];
+                level[j] = free & ~bent_v;
             }
         } else {
             for (u32 j = 0; j < 16; ++j) {
                 const u32 f = (c[j] & ~b[j]) >> 1 & 0xffff;
                 faces[j] = f;
-                along[j] = f & f >> 1 & (equal[j] | all_equal);
+                along[j] = f & f >> 1 & equal[j];
                 level[j] = f;
             }
         }
+        std::memcpy(out.faces + i * 16, faces, sizeof faces);
+        std::memcpy(out.along_u + i * 16, along, sizeof along);
+        std::memcpy(level_v + i * 16, level, sizeof level);
     }
     std::memset(level_v + 256, 0, 64);
     constexpr u32 stride = by_y ? 1 : 16;
     if (job.equal_v) {
-        const u16* ev = job.equal_v->data();
+        alignas(64) RowMask equal = *job.equal_v;
         for (u32 k = 0; k < 256; ++k)
-            out.along_v[k] = level_v[k] & level_v[k + stride] & ev[k];
+            out.along_v[k] = level_v[k] & level_v[k + stride] & equal[k];
     } else {
         for (u32 k = 0; k < 256; ++k)
             out.along_v[k] = level_v[k] & level_v[k + stride];
