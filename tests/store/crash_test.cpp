@@ -104,10 +104,14 @@ static void kill_again_and_again(u32 kills) {
             save_until_killed(folder.path(), kept + 1, ends[1], k & 1);
         }
         ::close(ends[1]);
-        // From before the world is made to well into the work.
-        std::this_thread::sleep_for(std::chrono::microseconds(rng.below(k % 3 ? 60000 : 8000)));
-        ::kill(child, SIGKILL);
+        // Sometimes while the world is being made or opened, else in the midst of work: after so many batches and a
+        // moment more.
         u32 told = kept, n = 0;
+        if (k % 3)
+            for (u32 more = 1 + rng.below(20); more > 0 && ::read(ends[0], &n, sizeof n) == sizeof n; --more)
+                told = n;
+        std::this_thread::sleep_for(std::chrono::microseconds(rng.below(5000)));
+        ::kill(child, SIGKILL);
         while (::read(ends[0], &n, sizeof n) == sizeof n)
             told = n;
         ::close(ends[0]);
