@@ -2,7 +2,7 @@
 #include "render/meshing/light_brick.h"
 #include "sample_terrain.h"
 
-#include <fmt/format.h>
+#include <map>
 
 namespace vitrail {
 
@@ -94,6 +94,35 @@ void run_by_quad(bench::Context& c, const std::vector<MeshInput>& inputs, u64 qu
     });
 }
 
+// Terrain under random light: no volume is uniform, every cell takes the slow way.
+struct LitTerrain {
+    std::vector<std::unique_ptr<Chunk>> chunks;
+    std::vector<MeshInput> inputs;
+
+    LitTerrain() {
+        const bench::SampleTerrain& t = terrain();
+        std::map<const Chunk*, const Chunk*> lit;
+        Rng rng(3);
+        for (i32 z = 4; z < 12; ++z)
+            for (i32 x = 4; x < 12; ++x) {
+                MeshInput in = t.input(x, 6, z);
+                for (const Chunk*& c : in.chunks) {
+                    const Chunk*& copy = lit[c];
+                    if (!copy) {
+                        chunks.push_back(std::make_unique<Chunk>(*c));
+                        LightVolume light;
+                        for (Light& l : light.writable())
+                            l = Light(u16(rng.next()));
+                        chunks.back()->light = std::make_shared<LightVolume>(std::move(light));
+                        copy = chunks.back().get();
+                    }
+                    c = copy;
+                }
+                inputs.push_back(in);
+            }
+    }
+};
+
 } // namespace
 
 } // namespace vitrail
@@ -129,4 +158,14 @@ void register_meshing_benches(vitrail::bench::Suite& suite) {
                   const Cubes cubes(checkered_state);
                   run(c, cubes.inputs);
               });
+    suite.add("mesh.brick", "us", "the light brick of a terrain section, no light uniform", [](bench::Context& c) {
+        const LitTerrain lit;
+        LightBrick brick;
+        c.measure(double(lit.inputs.size()), [&] {
+            for (const MeshInput& in : lit.inputs) {
+                build_light_brick(in, brick);
+                bench::keep(brick.cells);
+            }
+        });
+    });
 }

@@ -25,8 +25,8 @@ struct LightBrick {
 
 // From the same 27 chunks as the mesh. Opaque cells, absent and unlit chunks take the light of open cells beside them:
 // on each axis the darker where both sides are open (a thin wall must not let light into a dark room), else the open
-// one; averaged over the axes; cells with no open side take the average of sides so filled; cells deeper keep 0 (never
-// sampled). Neighboring bricks agree in the cells they share, where all 27 chunks of both are the same.
+// one; averaged over the axes, rounded to the nearest, halves up. Cells with no open side take what sides so filled
+// give by the same rule; cells deeper are 0 and never sampled. Neighboring bricks agree in the cells they share.
 void build_light_brick(const MeshInput& input, LightBrick& out);
 
 // Grass, foliage and water colors around a section, for bilinear sampling.

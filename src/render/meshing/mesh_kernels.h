@@ -51,6 +51,10 @@ struct MeshKernels {
     u32 (*exposed)(const PaddedMask& cells, const PaddedMask& blockers);
     // Writes at most 4096 quads; the end.
     u64* (*mesh_direction)(const DirectionJob& job, u64* out);
+    // light_kernels.inl
+    void (*split_light_row)(const u16* row, u32 closed, u16* even, u16* odd);
+    void (*fill_light_row)(const u8* row, u32 step_z, u32 step_y, u32 wanted, u8* out);
+    void (*join_light_row)(const u16* even, const u16* odd, u16* out);
 };
 
 extern const MeshKernels kMeshKernelsPortable, kMeshKernelsAvx2, kMeshKernelsAvx512;

@@ -499,12 +499,14 @@ u64* mesh_direction(const DirectionJob& job, u64* out) {
     return turned ? mesh_one<false, true, false>(job, out) : mesh_one<false, false, false>(job, out);
 }
 
+#include "render/meshing/light_kernels.inl"
+
 } // namespace
 
 #define VX_MESH_TABLE(NAME)                                                                                            \
     {                                                                                                                  \
         NAME, expand, classify, classify_rows, classify_column, equal_next, equal_next_wide, translate, transpose,     \
-            transpose_rows, exposed, mesh_direction                                                                    \
+            transpose_rows, exposed, mesh_direction, split_light_row, fill_light_row, join_light_row                   \
     }
 
 } // namespace vitrail::render
