@@ -2,6 +2,7 @@
 // something to stand on or hang from, and blocks of two parts. Shared by placement and breaking.
 #pragma once
 
+#include "rules/collision.h"
 #include "voxel/edit.h"
 #include "world/dimension.h"
 
@@ -19,8 +20,11 @@ public:
     StateTable& states() const { return dimension_.states(); }
     StateId id_at(BlockPos at) const;
     const StateInfo& info_at(BlockPos at) const { return states().info(id_at(at)); }
-    // In a loaded chunk of the dimension: only there may rules change anything.
-    bool editable(BlockPos at) const { return dimension_.contains(at) && dimension_.find(chunk_of(at)) != nullptr; }
+    // Within the dimension and known, loaded or open sky: only there may rules change anything. Where an edit lies in
+    // open sky without a chunk, who applies it makes the chunk first.
+    bool editable(BlockPos at) const {
+        return dimension_.contains(at) && cell_kind(dimension_, at) != CellKind::unknown;
+    }
     Result<> set(BlockPos at, const BlockState& state);
     EditBatch batch() const; // without edits that change nothing
 
