@@ -1,4 +1,5 @@
 // What was acknowledged survives: a killed process, torn and lost writes, a full disk.
+#include "base/log.h"
 #include "store/keys.h"
 #include "store/maintenance.h"
 #include "store/save_queue.h"
@@ -8,6 +9,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <thread>
@@ -221,6 +223,69 @@ TEST(Crash, FullDiskLosesNothingAndTheStoreGoesOn) {
     EXPECT_GT(vfs.refused(), 0u);
     vfs.reset();
     EXPECT_TRUE(verify_world(folder.path())->sound());
+}
+
+TEST(Crash, WorldCannotBeMadeOnAFullDiskButLater) {
+    TempFolder folder;
+    CrashVfs& vfs = CrashVfs::instance();
+    vfs.reset();
+    vfs.set_budget(10000);
+    const auto refused = WorldRecords::open(folder.path(), empty_registry(), {.create = true, .vfs = CrashVfs::kName});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::io) << refused.error().message;
+    vfs.set_budget(~u64(0));
+    EXPECT_TRUE(open_world(folder.path(), {.create = true, .vfs = CrashVfs::kName}));
+    vfs.reset();
+}
+
+// Bytes of the file itself go bad, as on a failing disk: some chunks may be lost, with a word, but none comes back
+// changed.
+TEST(Crash, RottenFileGivesNoWrongChunk) {
+    TempFolder folder;
+    {
+        auto world = open_world(folder.path());
+        SaveBatch batch;
+        for (i32 i = 0; i < 300; ++i)
+            batch.chunks.push_back({DimensionId(0), {i, 0, 0}, random_chunk(u64(i), 2)});
+        ASSERT_TRUE(world->save(batch));
+    }
+    std::ifstream in(folder / "world.sqlite", std::ios::binary);
+    const std::string sound(std::istreambuf_iterator<char>(in), {});
+    u32 refused = 0, lost = 0;
+    set_log_level(LogLevel::none);
+    for (u64 seed = 1; seed <= 60; ++seed) {
+        TempFolder other;
+        Rng rng(seed);
+        std::string rotten = sound;
+        for (u32 i = 1 + rng.below(rng.below(2) ? 3 : 200); i > 0; --i)
+            rotten[rng.below(u32(rotten.size()))] = char(rng.next());
+        if (rng.below(5) == 0) rotten.resize(rng.below(u32(rotten.size())));
+        std::ofstream(other / "world.sqlite", std::ios::binary) << rotten;
+        const auto report = verify_world(other.path());
+        auto world = WorldRecords::open(other.path(), empty_registry(), {.synchronous = "OFF"});
+        if (!world) {
+            ++refused;
+            EXPECT_FALSE(world.error().message.empty());
+            continue;
+        }
+        u32 missing = 0;
+        for (i32 i = 0; i < 300; ++i) {
+            const auto chunk = (*world)->load_chunk(DimensionId(0), {i, 0, 0});
+            if (chunk && *chunk) {
+                EXPECT_TRUE(same_chunk(**chunk, *random_chunk(u64(i), 2))) << seed;
+            } else {
+                ++missing;
+            }
+        }
+        if (missing > 0) {
+            EXPECT_TRUE(report && !report->sound())
+                << "seed " << seed << ": verify said nothing of " << missing << " lost chunks";
+        }
+        lost += missing;
+    }
+    set_log_level(LogLevel::info);
+    EXPECT_GT(lost, 0u);
+    EXPECT_LT(refused, 40u) << "most damage leaves a world that opens";
 }
 
 TEST(Crash, QueueKeepsWhatAFullDiskRefusesAndSaysSoOnce) {
