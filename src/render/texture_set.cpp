@@ -1,5 +1,7 @@
 #include "render/texture_set.h"
 
+#include "base/hash.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,10 +44,10 @@ u32 frames_of(const Image& image) {
     return image.height > image.width ? image.height / image.width : 1;
 }
 
-float coverage(const std::vector<u8>& level, float scale) {
+float coverage(const std::vector<u8>& level) {
     u32 passed = 0;
     for (std::size_t i = 3; i < level.size(); i += 4)
-        passed += float(level[i]) * scale >= 127.5f;
+        passed += level[i] >= 128;
     return float(passed) / float(level.size() / 4);
 }
 
@@ -132,7 +134,7 @@ MipChain make_albedo_mips(const Image& image, u32 frame) {
                     first[i * 4 + c] = srgb_of(sum[c] / weight);
             }
     chain.levels.push_back(std::move(first));
-    const float wanted = coverage(chain.levels[0], 1);
+    const float wanted = coverage(chain.levels[0]);
     const bool holes = wanted < 1 && wanted > 0;
     for (u32 level = 1, side = kSize / 2; level < kLevels; ++level, side /= 2) {
         std::vector<Pixel> next(side * side);
@@ -155,14 +157,16 @@ MipChain make_albedo_mips(const Image& image, u32 frame) {
                 out[0] = srgb_of(p.r), out[1] = srgb_of(p.g), out[2] = srgb_of(p.b), out[3] = u8(p.a * 255 + 0.5f);
             }
         if (holes) {
-            // The smallest scale that lets at least as much through as level 0 has, by bisection.
-            float low = 0, high = 8;
-            for (int i = 0; i < 16; ++i) {
-                const float mid = (low + high) / 2;
-                (coverage(bytes, mid) >= wanted ? high : low) = mid;
+            // As many texels pass the test as in level 0: those with most alpha, ties broken by a hash. (A scale for all, as is
+            // usual, jumps where many texels have the same alpha, as in art with hard edges.)
+            const u32 count = side * side, passing = u32(wanted * float(count) + 0.5f);
+            std::vector<std::pair<u32, u32>> order(count);
+            for (u32 i = 0; i < count; ++i) order[i] = {(255u - bytes[i * 4 + 3]) << 16 | (u32(mix64(i + 1)) & 0xffff), i};
+            std::sort(order.begin(), order.end());
+            for (u32 k = 0; k < count; ++k) {
+                u8& alpha = bytes[order[k].second * 4 + 3];
+                alpha = k < passing ? std::max<u8>(alpha, 160) : std::min<u8>(alpha, 95);
             }
-            for (std::size_t i = 3; i < bytes.size(); i += 4)
-                bytes[i] = u8(std::min(float(bytes[i]) * high + 0.5f, 255.0f));
         }
         now = std::move(next);
         chain.levels.push_back(std::move(bytes));

@@ -1,0 +1,324 @@
+#include "render_fixture.h"
+#include "scene/sky.h"
+
+#include <cmath>
+
+namespace vitrail::render {
+
+using RendererTest = RenderTest;
+
+static bool is_magenta(const u8* p) {
+    return p[0] > 200 && p[1] < 60 && p[2] > 200;
+}
+
+static u32 count_magenta(const Image& image) {
+    u32 n = 0;
+    for (u32 y = 0; y < image.height; ++y)
+        for (u32 x = 0; x < image.width; ++x)
+            n += is_magenta(image.at(x, y));
+    return n;
+}
+
+// A wall of one face direction at z = `cell` of a section, 16 x 16, one quad.
+static Quad wall(i32 z, Face face, TextureId texture) {
+    return Quad::cube({0, 0, z}, 16, 16, face, 255, texture, TintKind::none, 0);
+}
+
+static SectionMesh mesh_of(QuadPass pass, std::vector<std::pair<u32, Quad>> quads) {
+    SectionMesh mesh;
+    for (u32 g = 0; g < SectionMesh::kGroups; ++g) {
+        mesh.first[g] = u32(mesh.quads.size());
+        for (const auto& [direction, quad] : quads)
+            if (SectionMesh::group(pass, direction) == g) mesh.quads.push_back(quad);
+    }
+    mesh.first[SectionMesh::kGroups] = u32(mesh.quads.size());
+    mesh.connections = (u64(1) << 36) - 1;
+    return mesh;
+}
+
+TEST_F(RendererTest, BuildsBothQualities) {
+    for (Quality q : {Quality::low, Quality::high})
+        EXPECT_TRUE(make_renderer(q));
+    auto renderer = make_renderer();
+    renderer->set_quality(Quality::high);
+    EXPECT_EQ(renderer->quality(), Quality::high);
+}
+
+// The same scene far away on each axis gives the same picture, byte for byte.
+TEST_F(RendererTest, EveryPlaceLooksTheSame) {
+    constexpr i32 far = (2147483647 - 1007) / 16;
+    static_assert(i64(far) * 16 == (i64(1) << 31) - 1008);
+    bench::SampleScene scene(2);
+    scene.registry.content_roots = {test_content()};
+    const double up = scene.ground(20, 24) + 5;
+    for (Quality quality : {Quality::low, Quality::high}) {
+        Image first;
+        for (ChunkPos base :
+             {ChunkPos{0, 0, 0}, ChunkPos{far, 0, 0}, ChunkPos{-far, 0, 0}, ChunkPos{0, far, 0}, ChunkPos{0, -far, 0},
+              ChunkPos{0, 0, far}, ChunkPos{0, 0, -far}, ChunkPos{far, -far, far}}) {
+            auto renderer = make_renderer(quality);
+            ASSERT_TRUE(renderer);
+            scene.give(*renderer, base);
+            ASSERT_TRUE(renderer->load_textures(scene.registry));
+            auto frame = bench::SampleScene::frame(240, 136, eye_at(20.37, up, 24.81, base), 160, 20, 6);
+            frame.seconds = 5;
+            const Image image = draw(*renderer, frame);
+            if (first.width == 0) first = image;
+            ASSERT_EQ(image.pixels, first.pixels) << "at chunk " << base.x << " " << base.y << " " << base.z;
+        }
+        u32 different = 0; // and it shows something
+        for (std::size_t i = 0; i < first.pixels.size(); ++i)
+            different += first.pixels[i] != first.pixels[i % 3];
+        EXPECT_GT(different, first.pixels.size() / 2);
+    }
+}
+
+// Merged quads meet small ones at T-junctions all over a hilly landscape: no gap may let the background through.
+TEST_F(RendererTest, NoCracksAtTJunctions) {
+    bench::SampleScene scene(4, false);
+    scene.registry.content_roots = {test_content()};
+    auto renderer = make_renderer();
+    ASSERT_TRUE(renderer);
+    scene.give(*renderer);
+    ASSERT_TRUE(renderer->load_textures(scene.registry));
+    renderer->set_background(true, {1, 0, 1});
+    for (int i = 0; i < 24; ++i) {
+        Rng rng{u64(i)};
+        const double x = rng.unit() * 24 - 12, z = rng.unit() * 24 - 12;
+        auto frame = bench::SampleScene::frame(
+            427, 240, eye_at(x, scene.ground(i32(std::floor(x)), i32(std::floor(z))) + 3 + 14 * rng.unit(), z),
+            360 * rng.unit(), 62 + 20 * rng.unit(), 8);
+        frame.views[0].fov_y = 0.8f;
+        const Image image = draw(*renderer, frame);
+        if (count_magenta(image)) (void)write_png(fmt::format("/tmp/vitrail_cracks_{}.png", i), image);
+        EXPECT_EQ(count_magenta(image), 0u) << "view " << i << ", written to /tmp";
+    }
+    // The same background is there when there is nothing in front of it.
+    auto up = bench::SampleScene::frame(64, 64, eye_at(0, 90, 0), 0, -80, 8);
+    EXPECT_EQ(count_magenta(draw(*renderer, up)), 64 * 64u);
+}
+
+// Whichever side one looks from, the nearer of two panes lies over the farther.
+TEST_F(RendererTest, TranslucentQuadsAreSorted) {
+    auto renderer = make_renderer();
+    ASSERT_TRUE(renderer);
+    BlockRegistry registry;
+    registry.content_roots = {test_content()};
+    const TextureId red = registry.texture_id("red"), green = registry.texture_id("green");
+    ASSERT_TRUE(renderer->load_textures(registry));
+    renderer->set_background(true, {0, 0, 0});
+    // Both sides of each pane, in one section.
+    renderer->set_section({0, 0, 0}, {},
+                          mesh_of(QuadPass::translucent, {{4, wall(4, Face::north, red)},
+                                                          {5, wall(3, Face::south, red)},
+                                                          {4, wall(12, Face::north, green)},
+                                                          {5, wall(11, Face::south, green)}}));
+    auto look = [&](double z, float yaw) {
+        const Image image = draw(*renderer, bench::SampleScene::frame(33, 33, eye_at(8, 8, z), yaw, 0, 8));
+        const u8* p = image.at(16, 16);
+        return int(p[0]) - int(p[1]);
+    };
+    EXPECT_GT(look(-10, 0), 30);   // from the north: red is nearer
+    EXPECT_LT(look(30, 180), -30); // from the south: green
+    EXPECT_GT(look(-10, 0), 30);   // and back
+    // Across sections.
+    renderer->clear_sections();
+    renderer->set_section(
+        {0, 0, 0}, {},
+        mesh_of(QuadPass::translucent, {{4, wall(4, Face::north, red)}, {5, wall(3, Face::south, red)}}));
+    renderer->set_section(
+        {0, 0, 1}, {},
+        mesh_of(QuadPass::translucent, {{4, wall(4, Face::north, green)}, {5, wall(3, Face::south, green)}}));
+    EXPECT_GT(look(-10, 0), 30);
+    EXPECT_LT(look(40, 180), -30);
+}
+
+TEST_F(RendererTest, ResizesAtAnyTime) {
+    bench::SampleScene scene(1);
+    scene.registry.content_roots = {test_content()};
+    auto renderer = make_renderer(Quality::high);
+    ASSERT_TRUE(renderer);
+    scene.give(*renderer);
+    ASSERT_TRUE(renderer->load_textures(scene.registry));
+    for (auto [w, h] : {std::pair<u32, u32>{320, 200}, {1, 1}, {2, 301}, {641, 3}, {320, 200}}) {
+        const Image image = draw(*renderer, bench::SampleScene::frame(w, h, eye_at(0, 80, 0), 0, 40, 4));
+        EXPECT_EQ(image.width, w);
+        EXPECT_EQ(image.height, h);
+    }
+    auto frame = bench::SampleScene::frame(0, 10, {}, 0, 0, 4);
+    EXPECT_FALSE(renderer->render(frame));
+    frame.width = 20000;
+    EXPECT_FALSE(renderer->render(frame));
+    frame.width = 20;
+    frame.views.clear();
+    EXPECT_FALSE(renderer->render(frame));
+}
+
+TEST_F(RendererTest, CountsMissingTextures) {
+    auto renderer = make_renderer();
+    BlockRegistry registry;
+    registry.content_roots = {test_content()};
+    registry.texture_id("stone");
+    registry.texture_id("nowhere");
+    registry.texture_id("../../../etc/passwd");
+    ASSERT_TRUE(renderer->load_textures(registry));
+    EXPECT_EQ(renderer->missing_textures(), 2u);
+    EXPECT_EQ(renderer->missing_texture_names().at(0), "nowhere");
+}
+
+TEST_F(RendererTest, LightChangesWithoutAMesh) {
+    auto renderer = make_renderer();
+    BlockRegistry registry;
+    registry.content_roots = {test_content()};
+    const TextureId white = registry.texture_id("white");
+    ASSERT_TRUE(renderer->load_textures(registry));
+    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    auto look = [&] {
+        const Image image = draw(*renderer, bench::SampleScene::frame(33, 33, eye_at(8, 8, 2), 0, 0, 8));
+        return std::array<int, 3>{image.at(16, 16)[0], image.at(16, 16)[1], image.at(16, 16)[2]};
+    };
+    LightBrick brick;
+    brick.uniform = true;
+    brick.value = Light(0, 0, 0, 0);
+    renderer->set_section_light({0, 0, 0}, {}, brick);
+    const auto dark = look();
+    brick.value = Light(15, 0, 0, 0);
+    renderer->set_section_light({0, 0, 0}, {}, brick);
+    const auto sky = look();
+    brick.uniform = false;
+    brick.cells.fill(Light(0, 14, 1, 1).bits);
+    renderer->set_section_light({0, 0, 0}, {}, brick);
+    const auto lamp = look();
+    EXPECT_LT(dark[1], 60);
+    EXPECT_GT(sky[1], 110);
+    EXPECT_GT(lamp[0], lamp[2] + 80);
+    // Uniform bricks of one value share a slot: thousands cost nothing.
+    const u64 before = renderer->stats().gpu_bytes;
+    brick.uniform = true;
+    for (i32 i = 0; i < 3000; ++i)
+        renderer->set_section_light({i, 5, 0}, {}, brick);
+    (void)look();
+    EXPECT_EQ(renderer->stats().gpu_bytes, before);
+}
+
+TEST_F(RendererTest, RemovedSectionsAreGone) {
+    auto renderer = make_renderer();
+    BlockRegistry registry;
+    registry.content_roots = {test_content()};
+    const TextureId white = registry.texture_id("white");
+    ASSERT_TRUE(renderer->load_textures(registry));
+    renderer->set_background(true, {1, 0, 1});
+    const auto frame = bench::SampleScene::frame(33, 33, eye_at(8, 8, 2), 0, 0, 8);
+    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    EXPECT_EQ(count_magenta(draw(*renderer, frame)), 0u);
+    renderer->remove_section({0, 0, 0}, {});
+    EXPECT_FALSE(renderer->has_section({0, 0, 0}, {}));
+    EXPECT_EQ(count_magenta(draw(*renderer, frame)), 33 * 33u);
+    // Another dimension's sections are not drawn.
+    renderer->set_section({0, 0, 0}, DimensionId(7), mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    EXPECT_EQ(count_magenta(draw(*renderer, frame)), 33 * 33u);
+    EXPECT_EQ(renderer->stats().sections, 1u);
+}
+
+TEST_F(RendererTest, ClipPlanesCutAndViewsAreNumbered) {
+    auto renderer = make_renderer();
+    BlockRegistry registry;
+    registry.content_roots = {test_content()};
+    const TextureId white = registry.texture_id("white");
+    ASSERT_TRUE(renderer->load_textures(registry));
+    renderer->set_background(true, {1, 0, 1});
+    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    auto frame = bench::SampleScene::frame(32, 32, eye_at(8, 8, 2), 0, 0, 8);
+    frame.views[0].clip_plane = {1, 0, 0, 0}; // the left half: x grows to the left when looking south
+    EXPECT_EQ(count_magenta(draw(*renderer, frame)), 16 * 32u);
+    // A second view without a portal to be seen through draws nothing yet; all pixels stay view 0.
+    frame.views[0].clip_plane = {0, 0, 0, 1};
+    frame.views.push_back(frame.views[0]);
+    EXPECT_EQ(count_magenta(draw(*renderer, frame)), 0u);
+    const auto numbers = renderer->read_view_numbers();
+    ASSERT_TRUE(numbers);
+    for (u8 n : *numbers)
+        ASSERT_EQ(n, 0);
+}
+
+TEST_F(RendererTest, OutlinesThePickedBlock) {
+    auto renderer = make_renderer();
+    BlockRegistry registry;
+    registry.content_roots = {test_content()};
+    const TextureId white = registry.texture_id("white");
+    ASSERT_TRUE(renderer->load_textures(registry));
+    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    auto frame = bench::SampleScene::frame(200, 200, eye_at(8.5, 8.5, 4), 0, 0, 8);
+    const Image plain = draw(*renderer, frame);
+    frame.outlines.push_back({{DimensionId::overworld, {8, 8, 8}}, {{{0, 0, 0}, {1, 1, 1}}}});
+    const Image outlined = draw(*renderer, frame);
+    u32 darker = 0;
+    for (u32 i = 0; i < plain.pixels.size(); i += 3)
+        darker += outlined.pixels[i] + 30 < plain.pixels[i];
+    EXPECT_GT(darker, 100u); // four edges of about 36 pixels
+    EXPECT_LT(darker, 1500u);
+    EXPECT_EQ(outlined.at(100, 100)[0], plain.at(100, 100)[0]); // the inside stays
+}
+
+// The shader's dome is scene::sky_color. Looking down there are no clouds and no sun.
+TEST_F(RendererTest, SkyIsTheSameInBothLanguages) {
+    auto renderer = make_renderer();
+    for (float time : {0.0f, 3000.0f, 6000.0f, 11800.0f, 12600.0f, 14000.0f, 18000.0f, 23500.0f}) {
+        auto frame = bench::SampleScene::frame(17, 17, eye_at(0, 0, 0), 90, 25, 8);
+        frame.sky = scene::sky_at(time);
+        frame.views[0].fov_y = 0.02f;
+        const Image image = draw(*renderer, frame);
+        const Vec3 c = scene::sky_color(frame.sky, look_direction(1.5707963f, 0.4363323f));
+        const float in[3] = {c.x, c.y, c.z};
+        for (u32 k = 0; k < 3; ++k) {
+            const float x = in[k],
+                        mapped = clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
+            const float encoded = mapped <= 0.0031308f ? mapped * 12.92f : 1.055f * std::pow(mapped, 1 / 2.4f) - 0.055f;
+            const float moon_halo =
+                time > 12000 ? 12 : 5; // the sun's and moon's halos reach a little below the horizon
+            EXPECT_NEAR(image.at(8, 8)[k], encoded * 255, moon_halo) << "time " << time << " channel " << k;
+        }
+    }
+}
+
+TEST_F(RendererTest, DayAndNightChangeSmoothly) {
+    for (float t = 0; t < 24000; t += 10) {
+        const scene::SkyState a = scene::sky_at(t), b = scene::sky_at(t + 10);
+        const auto near = [&](Vec3 x, Vec3 y) { return length(x - y) < 0.03f; };
+        ASSERT_TRUE(near(a.sun_light, b.sun_light) && near(a.ambient, b.ambient) && near(a.horizon, b.horizon) &&
+                    near(a.zenith, b.zenith) && near(a.glow, b.glow))
+            << "at " << t;
+        // Direct light is gone when sun and moon take over from each other.
+        if (std::abs(a.sun_direction.y) < 0.01f) ASSERT_LT(length(a.sun_light), 0.1f) << "at " << t;
+    }
+}
+
+TEST_F(RendererTest, IconsShowTheBlock) {
+    auto registry = std::make_shared<BlockRegistry>();
+    registry->content_roots = {test_content()};
+    BlockDef def;
+    def.name = "minecraft:stone";
+    def.look.textures = {"stone"};
+    registry->add_block(def);
+    registry->texture_id("stone");
+    StateTable states(registry);
+    const auto stone = states.intern(*parse_block_state("minecraft:stone"));
+    ASSERT_TRUE(stone);
+    scene::BlockModels models;
+    models.ensure(states);
+    auto renderer = make_renderer();
+    ASSERT_TRUE(renderer->load_textures(*registry));
+    renderer->sync_models(models);
+    const auto icon = renderer->render_block_icon(states, models, *stone, 48);
+    ASSERT_TRUE(icon) << icon.error().message;
+    const Image image = *renderer->read_texture(*icon);
+    EXPECT_EQ(image.at(24, 24)[3], 255);
+    EXPECT_EQ(image.at(1, 1)[3], 0);
+    EXPECT_GT(image.at(24, 10)[0], image.at(36, 34)[0] + 20); // the top is lighter than the side
+    const auto air = renderer->render_block_icon(states, models, StateId::air, 48);
+    ASSERT_TRUE(air);
+    EXPECT_EQ(renderer->read_texture(*air)->at(24, 24)[3], 0);
+    EXPECT_FALSE(renderer->render_block_icon(states, models, StateId(9999), 48));
+}
+
+} // namespace vitrail::render
