@@ -171,9 +171,9 @@ Result<std::string> read_text(const std::filesystem::path& path) {
 
 } // namespace
 
-Result<std::shared_ptr<BlockRegistry>> load_content_texts(std::span<const ContentFile> files) {
+Result<std::shared_ptr<BlockRegistry>> load_content_texts(std::span<const ContentFile> files, u64 instructions_most) {
     lua::SandboxLimits limits;
-    limits.instructions_most = 200'000'000;
+    limits.instructions_most = instructions_most;
     limits.source_bytes_most = kContentFileBytesMost;
     VX_TRY_ASSIGN(auto sandbox, lua::Sandbox::create(limits));
     ContentBuilder builder;

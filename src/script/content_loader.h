@@ -26,7 +26,10 @@ struct ContentFile {
 // file, line, name and what was expected; limit.
 Result<std::shared_ptr<BlockRegistry>> load_content(std::span<const std::filesystem::path> roots);
 
+inline constexpr u64 kContentInstructionsMost = 200'000'000; // of all files together; the base game needs about 1 in 50
+
 // The same from texts in memory.
-Result<std::shared_ptr<BlockRegistry>> load_content_texts(std::span<const ContentFile> files);
+Result<std::shared_ptr<BlockRegistry>> load_content_texts(std::span<const ContentFile> files,
+                                                          u64 instructions_most = kContentInstructionsMost);
 
 } // namespace vitrail

@@ -1,0 +1,25 @@
+// Random text as content: never a crash, and whatever loads is a registry whose every block resolves.
+#include "script/content_loader.h"
+#include "world/state_table.h"
+
+#include <cstdlib>
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+    using namespace vitrail;
+    const ContentFile file{"fuzz.lua", std::string(reinterpret_cast<const char*>(data), size)};
+    const auto registry = load_content_texts({&file, 1}, 300'000);
+    if (!registry) {
+        if (registry.error().message.empty()) std::abort();
+        return 0;
+    }
+    StateTable table(*registry);
+    for (const BlockDef& def : (*registry)->blocks()) {
+        BlockState state{def.name, {}};
+        for (const PropertyDef& p : def.properties)
+            state.set(p.name, p.values.back());
+        const auto id = table.intern(state);
+        if (!id || table.info(*id).look == nullptr) std::abort();
+        if (table.info(*id).look->opacity > 15) std::abort();
+    }
+    return 0;
+}
