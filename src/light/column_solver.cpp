@@ -130,31 +130,79 @@ u32 face_cell(u32 face, u32 i) {
     }
 }
 
-bool lets_in(const Part& part, u32 cell) {
-    if (part.passing[cell >> 6] >> (cell & 63) & 1) return true;
-    for (const auto& [cost, cells] : part.thick)
-        if (cells[cell >> 6] >> (cell & 63) & 1) return true;
-    return false;
+// Bits of face_cell order, taken from a mask of the chunk.
+void face_bits(const CellMask& m, u32 face, std::array<u64, 4>& out) {
+    out.fill(0);
+    if (face >= 2 && face <= 3) {
+        for (u32 q = 0; q < 4; ++q)
+            out[q] = m[(face == 2 ? 0 : 60) + q];
+    } else if (face >= 4) {
+        for (u32 y = 0; y < 16; ++y)
+            out[y >> 2] |= (face == 4 ? m[y * 4] & 0xffff : m[y * 4 + 3] >> 48) << ((y & 3) * 16);
+    } else {
+        for (u32 w = 0; w < 64; ++w) {
+            const u64 v = m[w] >> (face == 0 ? 0 : 15);
+            const u64 four = (v & 1) | (v >> 15 & 2) | (v >> 30 & 4) | (v >> 45 & 8);
+            out[w >> 4] |= four << ((w & 15) * 4);
+        }
+    }
+}
+
+// The 256 values of a volume along a face, in face_cell order.
+void face_values(const LightVolume& volume, u32 face, u16* out) {
+    if (volume.uniform()) {
+        std::fill_n(out, 256, volume.get(LocalPos()).bits);
+        return;
+    }
+    const Light* cells = volume.cells()->data();
+    if (face < 2) {
+        for (u32 i = 0; i < 256; ++i)
+            out[i] = cells[i << 4 | (face == 0 ? 0 : 15)].bits;
+    } else if (face < 4) {
+        std::memcpy(out, cells + (face == 2 ? 0 : 3840), 512);
+    } else {
+        for (u32 y = 0; y < 16; ++y)
+            std::memcpy(out + y * 16, cells + y * 256 + (face == 4 ? 0 : 240), 32);
+    }
 }
 
 // Light of lit chunks around becomes sources in the cells along the border.
 void take_inflow(LightField& field, Part& part) {
     if (part.dark) return;
+    CellMask below_sky; // cells that let light in and do not see the sky
+    CellMask admits = part.passing;
+    for (const auto& [cost, cells] : part.thick)
+        for (u32 w = 0; w < 64; ++w)
+            admits[w] |= cells[w];
+    for (u32 w = 0; w < 64; ++w)
+        below_sky[w] = admits[w] & ~part.sky[w];
     for (u32 face = 0; face < 6; ++face) {
         const i32 to = field.beside(part.slot, face);
         if (to == LightField::kNone) continue;
         const LightField::Slot& n = field.slot(to);
         if (n.pending) continue;
         const bool uniform = n.now->uniform();
-        const Light all = n.now->get(LocalPos());
-        if (uniform && (all.bits == 0 || (part.open && (all.bits & 0xfff0) == 0))) continue;
+        const u32 all = n.now->get(LocalPos()).bits;
+        if (uniform && all == 0) continue;
+        const bool sky_only = n.sky_only || (uniform && (all & 0xfff0) == 0);
+        if (sky_only && part.open) continue;
+        std::array<u64, 4> wanted, unlit;
+        face_bits(sky_only ? below_sky : admits, face, wanted);
+        if (!(wanted[0] | wanted[1] | wanted[2] | wanted[3])) continue;
+        face_bits(below_sky, face, unlit);
+        alignas(64) u16 values[256];
+        face_values(*n.now, face ^ 1, values);
         for (u32 i = 0; i < 256; ++i) {
+            if (i % 64 == 0 && wanted[i / 64] == 0) {
+                i += 63;
+                continue;
+            }
+            if (!(wanted[i / 64] >> (i & 63) & 1)) continue;
+            u32 bits = values[i];
+            if (!(unlit[i / 64] >> (i & 63) & 1)) bits &= 0xfff0; // open to the sky already
+            if (bits == 0) continue;
             const u32 cell = face_cell(face, i);
-            bool crosses;
-            Light light = n.now->get(LocalPos(step_index(cell, face, crosses)));
-            if (part.sky[cell >> 6] >> (cell & 63) & 1) light.bits &= 0xfff0;
-            if (light.bits == 0 || !lets_in(part, cell)) continue;
-            const u32 level = lanes_less(spread_light(light), field.cost_of(field.slot(part.slot), cell));
+            const u32 level = lanes_less(spread_light(Light(u16(bits))), field.cost_of(field.slot(part.slot), cell));
             for (u32 c = 0; c < kChannels; ++c)
                 if (const u32 l = level >> kLane[c] & 15) part.sources[c].push_back({u16(cell), u8(l)});
         }
@@ -289,23 +337,33 @@ std::shared_ptr<LightVolume> volume_of(const Part& part) {
 }
 
 // Cells along the border whose light is worth a look from outside.
-void find_outflow(LightField& field, i32 slot) {
+void find_outflow(LightField& field, const Part& part) {
     for (u32 face = 0; face < 6; ++face) {
-        const i32 to = field.beside(slot, face);
+        if ((face == 2 && part.below) || (face == 3 && part.above)) continue; // solved together
+        const i32 to = field.beside(part.slot, face);
         if (to == LightField::kNone) continue;
-        const LightField::Slot &s = field.slot(slot), &n = field.slot(to);
+        const LightField::Slot &s = field.slot(part.slot), &n = field.slot(to);
         if (n.pending) continue;
         if (s.now->uniform() && s.now->get(LocalPos()).bits == 0) continue;
         if (s.now->uniform() && n.now->uniform() && s.now->get(LocalPos()) == n.now->get(LocalPos())) continue;
+        alignas(64) u16 own[256], other[256], flows[256];
+        face_values(*s.now, face, own);
+        face_values(*n.now, face ^ 1, other);
+        u32 any = 0;
+        for (u32 i = 0; i < 256; ++i) { // a level at least two below, in any channel
+            const u32 a = own[i], b = other[i];
+            flows[i] = u16(((a & 15) > (b & 15) + 1) | ((a & 0xf0) > (b & 0xf0) + 0x10) |
+                           ((a & 0xf00) > (b & 0xf00) + 0x100) | ((a >> 12) > (b >> 12) + 1));
+            any |= flows[i];
+        }
+        if (!any) continue;
         for (u32 i = 0; i < 256; ++i) {
+            if (!flows[i]) continue;
             const u32 cell = face_cell(face, i);
             bool crosses;
-            const u32 next = step_index(cell, face, crosses);
-            const u32 light = spread_light(s.now->get(LocalPos(cell)));
-            const u32 has = spread_light(n.now->get(LocalPos(next)));
-            if (!lanes_minus(lanes_less(light, 1), has)) continue;
-            const u32 cost = field.cost_of(n, next);
-            if (lanes_minus(lanes_less(light, cost), has)) field.rising.push_back(u32(slot) << 12 | cell);
+            const u32 cost = field.cost_of(n, step_index(cell, face, crosses));
+            if (lanes_minus(lanes_less(spread_light(Light(own[i])), cost), spread_light(Light(other[i]))))
+                field.rising.push_back(u32(part.slot) << 12 | cell);
         }
     }
 }
@@ -344,10 +402,12 @@ void solve_column(LightField& field, std::span<const i32> slots, const ColumnHei
     }
     for (u32 c = 0; c < kChannels; ++c)
         solve_channel(parts, c);
-    for (Part* p : parts)
+    for (Part* p : parts) {
         field.light_up(p->slot, volume_of(*p));
+        field.slot(p->slot).sky_only = (p->lit_channels & ~(1u << kSky)) == 0;
+    }
     for (Part* p : parts)
-        find_outflow(field, p->slot);
+        find_outflow(field, *p);
 }
 
 } // namespace vitrail

@@ -63,6 +63,7 @@ void LightField::open(i32 i) {
         s.now = s.next.get();
     }
     s.cells = s.next->writable().data();
+    s.sky_only = false; // whatever is written
     if (s.costs) return;
     if (costs_used_ == cost_pool_.size()) cost_pool_.push_back(std::make_unique<u8[]>(kChunkVolume));
     s.costs = cost_pool_[costs_used_++].get();

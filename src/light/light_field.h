@@ -28,7 +28,8 @@ public:
         Light* cells = nullptr;            // of next
         u8* costs = nullptr;               // of each cell, kEmits where the state emits
         i32 beside[6] = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
-        bool pending = false; // to be lit from nothing later: has no cells yet
+        bool pending = false;  // to be lit from nothing later: has no cells yet
+        bool sky_only = false; // known to hold no block light
     };
 
     // Starts work on a dimension; finish() or abandon() ends it.
