@@ -165,8 +165,9 @@ Result<> WorldRecords::load_tables() {
     return {};
 }
 
+// More room than a stranger gets: an imported chunk may carry very large block entities.
 DecodeLimits WorldRecords::decode_limits() const {
-    return {.state_count = states_->size(), .biome_count = biomes_->size()};
+    return {.state_count = states_->size(), .biome_count = biomes_->size(), .bytes_most = 64u << 20};
 }
 
 Result<std::optional<LevelRecord>> WorldRecords::load_level() {

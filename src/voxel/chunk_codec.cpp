@@ -43,19 +43,34 @@ Contexts& contexts() {
     return c;
 }
 
-// 4096 indices, `bits` each (0, 1, 2, 4, 8 or 16), low bits first: the words of a BlockStorage as bytes.
+// 4096 indices, `bits` each (0, 1, 2, 4, 8), low bits first: the words of a BlockStorage as bytes.
+template <unsigned Bits>
+void pack_bytes(std::span<const u16, kChunkVolume> indices, u8* to) {
+    constexpr u32 in_byte = 8 / Bits;
+    for (u32 at = 0; at < kChunkVolume / in_byte; ++at) {
+        u32 byte = 0;
+        for (u32 i = 0; i < in_byte; ++i)
+            byte |= u32(indices[at * in_byte + i]) << (i * Bits);
+        to[at] = u8(byte);
+    }
+}
+
 void put_packed(ByteWriter& out, std::span<const u16, kChunkVolume> indices, unsigned bits) {
-    if (bits == 0) return;
-    if (bits == 16) return out.put_raw(indices.data(), indices.size_bytes());
     const std::size_t start = out.size();
     out.bytes().resize(start + bits * 512);
     u8* to = out.bytes().data() + start;
-    const u32 in_byte = 8 / bits;
-    for (u32 cell = 0; cell < kChunkVolume; cell += in_byte) {
-        u32 byte = 0;
-        for (u32 i = 0; i < in_byte; ++i)
-            byte |= u32(indices[cell + i]) << (i * bits);
-        *to++ = u8(byte);
+    switch (bits) {
+    case 0:
+        return;
+    case 1:
+        return pack_bytes<1>(indices, to);
+    case 2:
+        return pack_bytes<2>(indices, to);
+    case 4:
+        return pack_bytes<4>(indices, to);
+    default:
+        VX_ASSERT(bits == 8);
+        return pack_bytes<8>(indices, to);
     }
 }
 
@@ -92,14 +107,22 @@ bool indices_below(ByteView packed, unsigned bits, u32 count) {
 }
 
 // Palette entries in order of first appearance, all of them used: then equal chunks have equal records.
-bool in_first_use_order(std::span<const u16, kChunkVolume> indices, std::size_t count) {
-    u32 next = 0;
-    for (u16 i : indices) {
-        if (i < next) continue;
-        if (i > next) return false;
-        ++next;
+bool in_first_use_order(const BlockStorage& blocks) {
+    const unsigned bits = blocks.bits();
+    const u64 mask = (u64(1) << bits) - 1;
+    const u64 count = blocks.palette().size();
+    u64 next = 0, last = ~blocks.words()[0];
+    for (u64 word : blocks.words()) {
+        if (word == last) continue; // most rows repeat
+        last = word;
+        for (unsigned shift = 0; shift < 64; shift += bits) {
+            const u64 index = word >> shift & mask;
+            if (index < next) continue;
+            if (index > next) return false;
+            if (++next == count) return true;
+        }
     }
-    return next == count;
+    return false;
 }
 
 void put_blocks(ByteWriter& out, const BlockStorage& blocks) {
@@ -107,10 +130,12 @@ void put_blocks(ByteWriter& out, const BlockStorage& blocks) {
         out.put_varint(1);
         return out.put_varint(u32(blocks.palette()[0]));
     }
-    auto& indices = contexts().indices;
-    blocks.unpack_indices(indices);
-    const bool ready = in_first_use_order(indices, blocks.palette().size());
-    const BlockStorage tidy = ready ? BlockStorage() : BlockStorage::from_indices(blocks.palette(), indices);
+    const bool ready = in_first_use_order(blocks);
+    BlockStorage tidy;
+    if (!ready) {
+        tidy = blocks;
+        tidy.compact();
+    }
     const BlockStorage& b = ready ? blocks : tidy;
     out.put_varint(b.palette().size());
     for (StateId id : b.palette())
