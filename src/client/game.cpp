@@ -16,8 +16,6 @@ namespace vitrail::client {
 
 // Milliseconds a frame that uploads may take.
 static constexpr double kUploadBudgetMs = 3;
-static constexpr float kReach = 6;
-
 static void take_screenshot(GameState& state) {
     render::Image image;
     image.width = state.window->width();
@@ -105,7 +103,7 @@ static CameraPose camera(const GameState& state) {
     const replica::Replica& replica = state.game->replica();
     CameraPose pose;
     pose.eye = {replica.body().feet.dimension,
-                interpolate(rules::eye_of(replica.body_before()), rules::eye_of(replica.body()), replica.alpha())};
+                interpolate(eye_of(replica.body_before()), eye_of(replica.body()), replica.alpha())};
     pose.yaw_deg = state.yaw_deg;
     pose.pitch_deg = state.pitch_deg;
     pose.fov_deg = state.settings.fov_deg;
@@ -126,7 +124,7 @@ static void update_world(GameState& state, float seconds) {
         say(state, notice.from.empty() ? notice.text : fmt::format("{}: {}", notice.from, notice.text));
     const CameraPose pose = camera(state);
     constexpr float degree = 3.14159265358979f / 180.0f;
-    state.hit = rules::pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * degree, pose.pitch_deg * degree), kReach);
+    state.hit = pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * degree, pose.pitch_deg * degree), kReach);
     act_on_world(state);
     state.feeder->update(replica, block_of(pose.eye.at), kUploadBudgetMs);
 }
@@ -138,8 +136,8 @@ static Result<> draw(GameState& state) {
     frame.gamma_exposure = state.settings.gamma;
     if (state.hit && !state.hide_ui) {
         scene::Outline outline;
-        outline.at = {replica.dimension().info().id, state.hit->at};
-        const Shape& shape = replica.states()->info(replica.dimension().state_at(state.hit->at)).shape;
+        outline.at = {replica.dimension().info().id, state.hit->block};
+        const Shape& shape = replica.states()->info(replica.dimension().state_at(state.hit->block)).shape;
         for (const ShapeBox& box : shape.pick) {
             constexpr float unit = 1.0f / float(kShapeUnit);
             outline.boxes.push_back({{box.min[0] * unit, box.min[1] * unit, box.min[2] * unit},
@@ -204,8 +202,8 @@ Result<> run_game(const GameOptions& options, std::shared_ptr<const BlockRegistr
     Result<> played;
     if (ready) {
         fill_hotbar(state);
-        state.yaw_deg = state.game->replica().body().yaw;
-        state.pitch_deg = state.game->replica().body().pitch;
+        state.yaw_deg = state.game->replica().body().yaw * 57.29577951f;
+        state.pitch_deg = state.game->replica().body().pitch * 57.29577951f;
         set_paused(state, false);
         played = play(state);
     }

@@ -69,7 +69,7 @@ struct GameState {
     std::deque<Notice> notices;
 
     // What the eye is on.
-    std::optional<rules::PickHit> hit;
+    std::optional<PickHit> hit;
     double seconds = 0; // since the start
     float frame_ms = 0; // smoothed
     u64 frames = 0;
@@ -79,7 +79,7 @@ struct GameState {
 void handle_events(GameState& state, const std::vector<platform::InputEvent>& events);
 void act_on_world(GameState& state); // break, place, pick as the held buttons say
 void set_paused(GameState& state, bool paused);
-rules::MoveInput move_input(GameState& state); // of the keys held now
+MoveCommand move_input(GameState& state); // of the keys held now
 
 // game_hud.cpp
 void draw_interface(GameState& state);

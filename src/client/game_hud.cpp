@@ -57,9 +57,9 @@ std::vector<std::string> debug_lines_right(const GameState& state) {
     };
     if (const auto info = gfx::context_info()) lines.push_back(info->renderer);
     if (state.hit) {
-        const auto& block = replica.states()->info(replica.dimension().state_at(state.hit->at)).state;
+        const auto& block = replica.states()->info(replica.dimension().state_at(state.hit->block)).state;
         lines.emplace_back();
-        lines.push_back(fmt::format("{} {} {}", state.hit->at.x, state.hit->at.y, state.hit->at.z));
+        lines.push_back(fmt::format("{} {} {}", state.hit->block.x, state.hit->block.y, state.hit->block.z));
         lines.push_back(block.name);
         for (const auto& [key, value] : block.properties) lines.push_back(fmt::format("{} = {}", key, value));
     }

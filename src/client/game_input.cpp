@@ -105,10 +105,26 @@ void handle_events(GameState& state, const std::vector<platform::InputEvent>& ev
     }
 }
 
+MoveCommand move_input(GameState& state) {
+    constexpr float degree = 3.14159265358979f / 180.0f;
+    MoveCommand command;
+    command.yaw = state.yaw_deg * degree;
+    command.pitch = state.pitch_deg * degree;
+    if (state.paused || state.block_list_open) return command;
+    auto down = [&](Key key) { return state.held.contains(key); };
+    command.forward = i8(down(Key::w) - down(Key::s));
+    command.strafe = i8(down(Key::d) - down(Key::a));
+    command.jump = down(Key::space);
+    command.sneak = down(Key::left_shift);
+    command.sprint = down(Key::left_ctrl);
+    command.toggle_flying = std::exchange(state.fly_wanted, false);
+    return command;
+}
+
 // Puts the block that is looked at into the hotbar: selects it where it is there already.
 static void pick_to_hotbar(GameState& state) {
     const auto& replica = state.game->replica();
-    const std::string name = replica.states()->info(replica.dimension().state_at(state.hit->at)).state.name;
+    const std::string name = replica.states()->info(replica.dimension().state_at(state.hit->block)).state.name;
     const auto found = std::find(state.hotbar.names.begin(), state.hotbar.names.end(), name);
     if (found == state.hotbar.names.end()) {
         if (state.hotbar.selected < state.hotbar.names.size()) state.hotbar.names[state.hotbar.selected] = name;
@@ -122,15 +138,15 @@ void act_on_world(GameState& state) {
     const bool pick = std::exchange(state.pick_wanted, false);
     if (!state.hit || state.paused || state.block_list_open) return;
     replica::Replica& replica = state.game->replica();
-    const rules::PickHit& hit = *state.hit;
+    const PickHit& hit = *state.hit;
     if (pick) pick_to_hotbar(state);
     if (state.break_held && state.seconds >= state.next_break_seconds) {
         state.next_break_seconds = state.seconds + kEditRepeat;
-        if (const auto sent = replica.break_block(hit.at, hit.face, hit.point); !sent) say(state, sent.error().message);
+        if (const auto sent = replica.break_block(hit.block, hit.face, hit.point); !sent) say(state, sent.error().message);
     }
     if (state.place_held && state.seconds >= state.next_place_seconds && state.hotbar.selected < state.hotbar.names.size()) {
         state.next_place_seconds = state.seconds + kEditRepeat;
-        const auto sent = replica.place_block(hit.at, hit.face, hit.point, state.hotbar.names[state.hotbar.selected]);
+        const auto sent = replica.place_block(hit.block, hit.face, hit.point, state.hotbar.names[state.hotbar.selected]);
         (void)sent; // no room, a body in the way: nothing happens, as in the world
     }
 }

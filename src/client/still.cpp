@@ -55,7 +55,6 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, std::sha
 
 Still::~Still() {
     feeder_.reset();
-    if (game_ && !scratch_folder_.empty()) game_->server().abandon(); // nothing of it is kept
     game_.reset();
     renderer_.reset();
     if (!scratch_folder_.empty()) {

@@ -63,7 +63,7 @@ ChunkPtr require_chunk(ServerDimension& dimension, ChunkPos at) {
 void request_columns(ServerWorld& world) {
     for (auto& [id, dimension] : world.dimensions) {
         // Few at a time, so that the order follows the player.
-        const u32 most = std::max(2u, world.pool->threads() * 4);
+        const u32 most = std::max(2u, world.pool->threads() * 24);
         if (dimension.loading >= most) continue;
         std::vector<std::pair<float, ColumnPos>> missing;
         for (const auto& session : world.sessions) {

@@ -5,6 +5,7 @@
 #include "net/registry_codec.h"
 #include "server/interest.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <random>
 
@@ -46,10 +47,12 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shar
     world->registry_bytes = net::encode_registry(*registry);
     world->content_hash = net::registry_hash(*registry);
     OpenOptions open;
-    open.create = options.create;
+    open.create = options.create && !options.read_only;
+    open.read_only = options.read_only;
     VX_TRY_ASSIGN(world->records, WorldRecords::open(options.folder, registry, open));
     VX_TRY_ASSIGN(auto level, world->records->load_level());
     if (level) world->level = std::move(*level);
+    else if (options.read_only) return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
     else {
         VX_TRY_ASSIGN(world->level, make_level(*world->records, options, world->content_hash));
     }
@@ -88,6 +91,28 @@ PlayerRecord player_record(const Session& session) {
     return record;
 }
 
+// Hovering, so that the eye stays where it is wanted.
+static Result<> place_at_start(const ServerWorld& world, Session& session) {
+    const StartPlace& start = *world.options.start;
+    session.body.feet.dimension = world.level.spawn.dimension;
+    if (!start.dimension.empty()) {
+        const auto found = std::find_if(world.dimensions.begin(), world.dimensions.end(), [&](const auto& entry) {
+            const std::string& name = entry.second.dimension.info().name;
+            return name == start.dimension || name == "minecraft:" + start.dimension;
+        });
+        if (found == world.dimensions.end())
+            return fail(ErrorCode::not_found, fmt::format("the world has no dimension '{}'", start.dimension));
+        session.body.feet.dimension = found->first;
+    } else if (!world.dimensions.contains(session.body.feet.dimension)) {
+        session.body.feet.dimension = world.dimensions.begin()->first;
+    }
+    session.body.feet.at = clamp_to_world({start.eye.x, start.eye.y - kBodyEye, start.eye.z});
+    session.body.flying = true;
+    session.hotbar = world.registry->hotbar;
+    if (session.hotbar.size() > 16) session.hotbar.resize(16);
+    return {};
+}
+
 Result<> restore_player(ServerWorld& world, Session& session) {
     std::optional<PlayerRecord> record;
     if (const auto left = world.players_left.find(session.name); left != world.players_left.end()) record = left->second;
@@ -95,6 +120,7 @@ Result<> restore_player(ServerWorld& world, Session& session) {
         VX_TRY_ASSIGN(record, world.records->load_player(session.name));
     }
     session.body = {};
+    if (world.options.start) return place_at_start(world, session);
     if (record && world.dimensions.contains(record->at.dimension)) {
         session.body.feet = {record->at.dimension, clamp_to_world(record->at.at)};
         session.body.flying = record->flying;
@@ -162,6 +188,7 @@ SaveBatch gather(ServerWorld& world, bool everything) {
 } // namespace
 
 void save_changes(ServerWorld& world) {
+    if (world.options.read_only) return;
     bool any = world.level_dirty;
     for (auto& [id, dimension] : world.dimensions)
         any |= !dimension.dirty_chunks.empty() || !dimension.dirty_columns.empty();
@@ -182,6 +209,7 @@ void save_changes(ServerWorld& world) {
 }
 
 Result<> save_all(ServerWorld& world) {
+    if (world.options.read_only) return {};
     save_changes(world);
     world.saves->submit(gather(world, true));
     return world.saves->flush();

@@ -26,6 +26,17 @@ u64 chunk_memory(const ServerWorld& world) {
     return bytes;
 }
 
+bool is_idle(const ServerWorld& world) {
+    for (const auto& [id, dimension] : world.dimensions)
+        if (dimension.loading > 0 || !dimension.light_changed.empty()) return false;
+    for (const auto& session : world.sessions) {
+        if (!session->joined || session->gone || session->walk_again || !session->columns_complete) return false;
+        if (session->walked_opened != world.dimensions.at(session->dimension()).opened || !session->wanted.empty()) return false;
+        if (session->bytes_acknowledged != session->bytes_sent) return false;
+    }
+    return !world.sessions.empty();
+}
+
 } // namespace
 
 Server::Server() = default;
@@ -70,6 +81,7 @@ void Server::tick_once() {
         stats.chunks += u32(dimension.dimension.chunks().size());
         stats.columns_waiting += dimension.loading;
     }
+    stats.idle = is_idle(*world_);
     stats.save_pending_bytes = world_->saves->pending_bytes();
     if (world_->tick % kTicksASecond == 0) stats.chunk_memory_bytes = chunk_memory(*world_);
     std::lock_guard lock(stats_mutex_);

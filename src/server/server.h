@@ -15,6 +15,7 @@
 #include "base/result.h"
 #include "base/types.h"
 #include "net/transport.h"
+#include "voxel/coords.h"
 #include "world/block_registry.h"
 
 #include <atomic>
@@ -29,12 +30,20 @@ namespace vitrail::server {
 
 inline constexpr u32 kTicksASecond = 20;
 
+// Where everybody joins instead of where he left, e.g. the camera of a still picture.
+struct StartPlace {
+    std::string dimension; // name; empty: the spawn's
+    WorldPos eye;
+};
+
 struct ServerOptions {
     std::string folder;                  // the world's directory
     bool create = true;                  // make a world where there is none
     std::optional<u64> seed;             // of a new world; none: random
     std::string generator = "hills";     // of a new world; "" makes an empty one
     std::string name = "World";          // of a new world
+    bool read_only = false; // takes no lock on the folder and keeps nothing; the world must exist
+    std::optional<StartPlace> start;
     unsigned threads = 1;                // workers that load, generate and light; 0: inside the tick
     u32 view_distance_most = 24;         // chunks
     u32 save_group_ms = 100;             // how long a commit waits for company
@@ -47,6 +56,7 @@ struct ServerStats {
     float tick_ms = 0, tick_ms_max = 0; // the last, and the longest of the last 100
     u32 sessions = 0, columns = 0, chunks = 0, columns_waiting = 0;
     u64 sections_sent = 0, bytes_sent = 0, save_pending_bytes = 0;
+    bool idle = false; // every session has all it can see, and has said so; nothing loads (at least one session)
     u64 chunk_memory_bytes = 0; // blocks and light of loaded chunks; counted once a second
 };
 

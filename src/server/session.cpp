@@ -50,7 +50,7 @@ void hear(ServerWorld& world, Session& session, net::Hello& hello) {
     session.view_distance = std::min(hello.view_distance, world.options.view_distance_most);
     if (auto restored = restore_player(world, session); !restored) {
         log_error(fmt::format("player {}: {}", session.name, restored.error().message));
-        return drop(session, "your player cannot be read from the world");
+        return drop(session, world.options.start ? restored.error().message : "your player cannot be read from the world");
     }
     session.joined = true;
     if (hello.content_hash != world.content_hash) send(session, net::Channel::world, net::RegistryData{world.registry_bytes});
@@ -164,7 +164,7 @@ void remove_gone_sessions(ServerWorld& world) {
     if (!batch.players.empty()) {
         if (world.players_left.size() > kPlayersLeftMost && world.saves->flush()) world.players_left.clear();
         for (const PlayerRecord& record : batch.players) world.players_left.insert_or_assign(record.name, record);
-        world.saves->submit(std::move(batch));
+        if (!world.options.read_only) world.saves->submit(std::move(batch));
     }
     std::erase_if(world.sessions, [](const auto& s) { return s->gone; });
 }
