@@ -1,12 +1,13 @@
 #include "server/edits.h"
 
 #include "light/relight.h"
+#include "rules/breaking.h"
+#include "rules/pick.h"
+#include "rules/placement.h"
 #include "server/chunk_loading.h"
 #include "server/interest.h"
 
 #include <algorithm>
-#include <cmath>
-#include <fmt/format.h>
 
 namespace vitrail::server {
 
@@ -14,37 +15,47 @@ namespace {
 
 constexpr float kReachSlack = 1.0f; // blocks: commands on their way move the eye
 
-struct Verdict {
-    std::vector<Edit> edits;
-};
-
-float reach_distance(const Session& session, const net::EditRequest& request) {
-    const BlockPos at = net::from_wire(request.at);
-    const Vec3 corner = view_from(eye_of(session.body), at).v;
-    return length(corner + Vec3{std::clamp(request.hit_x, 0.0f, 1.0f), std::clamp(request.hit_y, 0.0f, 1.5f),
-                                std::clamp(request.hit_z, 0.0f, 1.0f)});
+float distance_to(const Session& session, const net::EditRequest& request) {
+    // No block's boxes reach further than half a block above its cell.
+    const Vec3 point{std::clamp(request.hit_x, 0.0f, 1.0f), std::clamp(request.hit_y, 0.0f, 1.5f),
+                     std::clamp(request.hit_z, 0.0f, 1.0f)};
+    return length(view_from(eye_of(session.body), net::from_wire(request.at)).v + point);
 }
 
-Result<Verdict> judge(ServerWorld& world, ServerDimension& dimension, Session& session, const net::EditRequest& request) {
+std::vector<BodyState> bodies_in(const ServerWorld& world, DimensionId dimension) {
+    std::vector<BodyState> bodies;
+    for (const auto& session : world.sessions)
+        if (session->joined && session->dimension() == dimension) bodies.push_back(session->body);
+    return bodies;
+}
+
+// What the request does, or why not.
+Result<EditBatch> judge(ServerWorld& world, ServerDimension& dimension, const Session& session,
+                        const net::EditRequest& request) {
     const BlockPos at = net::from_wire(request.at);
     const StateTable& states = world.states();
     if (!dimension.dimension.contains(at)) return fail(ErrorCode::denied, "the world ends here");
+    if (distance_to(session, request) > kReach + kReachSlack) return fail(ErrorCode::denied, "too far away");
     if (!ready(dimension, column_of(chunk_of(at)))) return fail(ErrorCode::denied, "nothing is loaded here");
-    if (reach_distance(session, request) > 5.0f + kReachSlack) return fail(ErrorCode::denied, "too far away");
-    const StateId target = dimension.dimension.state_at(at);
-    if (!request.target.empty() && states.info(target).state.to_string() != request.target)
+    if (!request.target.empty() && states.info(dimension.dimension.state_at(at)).state.to_string() != request.target)
         return fail(ErrorCode::denied, "the block has changed");
     if (is_hidden(at, [&](BlockPos p) { return state_for_surface(dimension, p); }, opaque_states(states)))
-        return fail(ErrorCode::denied, "the block is not in sight");
-    Verdict verdict;
-    if (request.kind == net::EditKind::break_block) {
-        verdict.edits.push_back({at, StateId::air});
-        return verdict;
-    }
-    VX_TRY_ASSIGN(BlockState held, parse_block_state(request.held));
-    VX_TRY_ASSIGN(StateId id, world.states().intern_with_defaults(held));
-    verdict.edits.push_back({neighbor(at, Face(request.face)), id});
-    return verdict;
+        return fail(ErrorCode::denied, "this block cannot be seen");
+    if (request.kind == net::EditKind::break_block) return break_block(dimension.dimension, at);
+    if (request.kind != net::EditKind::place_block) return fail(ErrorCode::unsupported, "an edit of an unknown kind");
+    // Absent air becomes a chunk where something is put into it: up to two blocks high.
+    const BlockPos into = neighbor(at, Face(request.face));
+    for (const BlockPos p : {at, into, neighbor(into, Face::up)})
+        if (dimension.dimension.contains(p)) require_chunk(dimension, chunk_of(p));
+    const PlaceRequest place{request.held,
+                             at,
+                             Face(request.face),
+                             {std::clamp(request.hit_x, 0.0f, 1.0f), std::clamp(request.hit_y, 0.0f, 1.0f),
+                              std::clamp(request.hit_z, 0.0f, 1.0f)},
+                             request.yaw,
+                             request.pitch,
+                             session.body.sneaking};
+    return place_block(dimension.dimension, place, bodies_in(world, session.dimension()));
 }
 
 } // namespace
@@ -74,7 +85,7 @@ void run_edits(ServerWorld& world) {
                 session->results.push_back({request.sequence, net::EditOutcome::refused, verdict.error().message.substr(0, 256)});
                 continue;
             }
-            edit_world(world, dimension, EditBatch{std::move(verdict->edits)});
+            edit_world(world, dimension, *verdict);
             session->results.push_back({request.sequence, net::EditOutcome::accepted, {}});
             session->unkept_sequence = request.sequence;
         }

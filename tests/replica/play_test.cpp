@@ -5,6 +5,8 @@
 namespace vitrail {
 namespace {
 
+const Vec3 kMiddle{0.5f, 0.5f, 0.5f};
+
 TEST(Play, AClientJoinsAndSeesTheSurfaceOfTheWorld) {
     Play play;
     auto& ann = play.join("ann");
@@ -97,18 +99,13 @@ TEST(Play, BlocksArePlacedAndLampsShine) {
 TEST(Play, WhatIsRefusedIsTakenBack) {
     Play play;
     auto& ann = play.join("ann", 4);
-    const auto before = ann.dimension().chunks();
-    // Too far: the client's own rules are not asked, the server's are.
-    auto sequence = ann.place_block({20, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:glowstone");
-    if (sequence) {
-        play.tick(2);
-        EXPECT_EQ(play.block({20, 64, 0}), "minecraft:air");
-        const auto answers = ann.take_answers();
-        ASSERT_EQ(answers.size(), 1u);
-        EXPECT_EQ(answers[0].outcome, net::EditOutcome::refused);
-    }
-    EXPECT_EQ(seen(ann, {20, 64, 0}), "minecraft:air");
-    expect_equal_surface(play, ann);
+    // What the client's own rules refuse is not even asked.
+    EXPECT_EQ(ann.place_block({20, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:glowstone").error().message, "too far away");
+    EXPECT_FALSE(ann.place_block({0, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:stone")); // into its own body
+    EXPECT_FALSE(ann.break_block({1, 64, 0}, Face::up, kMiddle));                           // air
+    EXPECT_FALSE(ann.break_block({1, 62, 0}, Face::up, kMiddle));                           // not known
+    EXPECT_FALSE(ann.place_block({1, 63, 0}, Face::up, kMiddle, "no:such_block"));
+    EXPECT_EQ(ann.stats().pending_edits, 0u);
     // A block that changed meanwhile: the server knows better.
     const BlockPos at{1, 63, 1};
     server::edit_world(play.world(), play.dimension(), {{{at, play.state("minecraft:dirt")}}});
@@ -120,6 +117,34 @@ TEST(Play, WhatIsRefusedIsTakenBack) {
     ASSERT_EQ(answers.size(), 1u);
     EXPECT_EQ(answers[0].outcome, net::EditOutcome::refused);
     EXPECT_FALSE(answers[0].reason.empty());
+    expect_equal_surface(play, ann);
+}
+
+TEST(Play, NobodyBuildsIntoAnotherPlayer) {
+    Play play;
+    auto& ann = play.join("ann");
+    play.join("bob");
+    play.session("bob").body.feet.at = corner_of({2, 64, 0});
+    play.session("bob").body.feet.at.x += kFixedOne / 2;
+    // Ann's replica does not know where bob stands.
+    ASSERT_TRUE(ann.place_block({2, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:stone"));
+    EXPECT_EQ(seen(ann, {2, 64, 0}), "minecraft:stone");
+    play.tick(2);
+    EXPECT_EQ(play.block({2, 64, 0}), "minecraft:air");
+    EXPECT_EQ(seen(ann, {2, 64, 0}), "minecraft:air");
+    expect_equal_surface(play, ann);
+}
+
+TEST(Play, BlocksOfTwoPartsAndThingsThatHangGoTogether) {
+    Play play;
+    auto& ann = play.join("ann");
+    ASSERT_TRUE(ann.place_block({2, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:oak_door"));
+    play.tick(2);
+    EXPECT_EQ(play.block({2, 65, 0}), "minecraft:oak_door");
+    ASSERT_TRUE(ann.break_block({2, 63, 0}, Face::west, kMiddle)); // what it stands on
+    EXPECT_EQ(seen(ann, {2, 65, 0}), "minecraft:air");
+    play.tick(2);
+    EXPECT_EQ(play.block({2, 65, 0}), "minecraft:air");
     expect_equal_surface(play, ann);
 }
 

@@ -171,6 +171,44 @@ TEST(Session, NobodyMovesFasterThanTime) {
     EXPECT_NE(gap.reason.find("gap"), std::string::npos);
 }
 
+TEST(Session, RequestsAreJudged) {
+    Play play("", [](Dimension& d) {
+        const StateId bedrock = *d.states().intern_with_defaults(*parse_block_state("minecraft:bedrock"));
+        apply(d, {{{{1, 63, 1}, bedrock}}});
+    });
+    RawClient client(play);
+    client.greet();
+    client.tick(10);
+    u32 sequence = 0;
+    auto ask = [&](net::EditKind kind, BlockPos at, const std::string& held = "", const std::string& target = "") {
+        net::EditRequest request;
+        request.sequence = ++sequence, request.kind = kind, request.at = net::to_wire(at), request.face = u8(Face::up);
+        request.hit_x = request.hit_z = 0.5f, request.hit_y = 1, request.held = held, request.target = target;
+        client.say(request);
+        client.results.clear();
+        client.tick();
+        EXPECT_EQ(client.results.size(), 1u);
+        return client.results.empty() ? "no answer"
+               : client.results[0].outcome == net::EditOutcome::accepted ? "accepted"
+                                                                        : client.results[0].reason;
+    };
+    const auto dig = net::EditKind::break_block, build = net::EditKind::place_block;
+    EXPECT_EQ(ask(dig, {30, 63, 0}), "too far away");
+    EXPECT_EQ(ask(dig, {1 << 30, 63, 0}), "too far away");
+    EXPECT_EQ(ask(dig, {0, 5000, 0}), "the world ends here");
+    EXPECT_EQ(ask(dig, {1, 62, 0}), "this block cannot be seen");
+    EXPECT_EQ(ask(dig, {1, 63, 0}, "", "minecraft:dirt"), "the block has changed");
+    EXPECT_NE(ask(dig, {1, 63, 1}).find("cannot be broken"), std::string::npos);
+    EXPECT_EQ(ask(dig, {1, 63, 0}, "", "minecraft:stone"), "accepted");
+    EXPECT_NE(ask(dig, {1, 63, 0}), "accepted"); // air by now
+    EXPECT_NE(ask(build, {0, 63, 0}, "minecraft:stone"), "accepted"); // into the player
+    EXPECT_NE(ask(build, {2, 63, 0}, "vitrail:hidden"), "accepted");
+    EXPECT_NE(ask(build, {2, 63, 0}, "minecraft:air"), "accepted");
+    EXPECT_NE(ask(build, {2, 63, 0}, "x:y[z=1]"), "accepted");
+    EXPECT_EQ(ask(build, {2, 63, 0}, "minecraft:stone"), "accepted");
+    EXPECT_EQ(ask(net::EditKind(9), {2, 63, 1}).find("accepted"), std::string::npos);
+}
+
 TEST(Session, AClientThatDoesNotReadIsDropped) {
     Play play("hills");
     auto [near_end, far_end] = net::make_loopback({.queue_bytes_most = 200000, .clock = {}});
@@ -278,7 +316,9 @@ TEST(Session, TheServersThreadServesSeveralClientsAtOnce) {
     bob.join();
     EXPECT_GT((*server)->stats().ticks, 2u);
     EXPECT_TRUE((*server)->stop());
-    EXPECT_FALSE(server::Server::open({.folder = "/proc/no/such", .generator = "hills", .name = "x"}, base_content()));
+    server::ServerOptions nowhere;
+    nowhere.folder = "/proc/no/such";
+    EXPECT_FALSE(server::Server::open(nowhere, base_content()));
     server->reset();
     std::filesystem::remove_all(folder);
 }
