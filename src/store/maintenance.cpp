@@ -83,8 +83,7 @@ Result<VerifyReport> verify_world(const std::string& folder) {
     };
     if (const auto sound = store.check(); !sound) finding(sound.error().message);
     find_lost_names(*world, report);
-    const DecodeLimits limits{
-        .state_count = world->states().size(), .biome_count = world->biomes().size(), .bytes_most = 64u << 20};
+    const DecodeLimits limits = world->decode_limits();
     for (u8 t = 0; t < u8(Table::count); ++t) {
         const Table table = Table(t);
         const auto scanned = store.scan(table, {}, {}, [&](ByteView key, ByteView record) {
@@ -117,8 +116,7 @@ Result<InspectReport> inspect_world(const std::string& folder) {
         by_dimension[u32(d.id)].name = d.name;
 
     std::vector<u64> counts(world->states().size());
-    const DecodeLimits limits{
-        .state_count = world->states().size(), .biome_count = world->biomes().size(), .bytes_most = 64u << 20};
+    const DecodeLimits limits = world->decode_limits();
     std::array<u16, kChunkVolume> indices;
     std::map<u32, std::pair<bool, ColumnPos>> last_column;
     VX_TRY(store.scan(Table::chunk, {}, {}, [&](ByteView key, ByteView record) {

@@ -109,6 +109,8 @@ public:
     const std::shared_ptr<StateTable>& states_ptr() const { return states_; }
     const std::shared_ptr<BiomeTable>& biomes_ptr() const { return biomes_; }
     BiomeTable& biomes() const { return *biomes_; }
+    // What decode_chunk may take from this world's store.
+    DecodeLimits decode_limits() const;
 
     // Each: nothing (null, empty) where never saved. Errors: the store's.
     Result<std::optional<LevelRecord>> load_level();
@@ -145,7 +147,6 @@ private:
         -> Result<std::optional<typename decltype(parse(ByteView{}))::value_type>>;
     template <class Visit>
     Result<> load_range(Table table, ByteView from, ByteView to, u8 version_most, Visit visit);
-    DecodeLimits decode_limits() const;
 
     std::unique_ptr<WorldStore> store_;
     std::shared_ptr<StateTable> states_;
