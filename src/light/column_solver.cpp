@@ -56,18 +56,12 @@ void mark_open_sky(Part& part, const ColumnHeights& heights) {
         part.sky.fill(part.open ? ~u64(0) : 0);
         return;
     }
-    for (u32 w = 0; w < 64; ++w) {
-        const i32 y = i32(w >> 2);
-        if (y < lowest || y >= highest) {
-            part.sky[w] = y < lowest ? 0 : ~u64(0);
-            continue;
-        }
-        const u8* from = first + (w & 3) * 64;
-        u64 bits = 0;
-        for (u32 i = 0; i < 64; ++i)
-            bits |= u64(from[i] <= y) << i;
-        part.sky[w] = bits;
-    }
+    // Each column opens in one layer and stays open above it.
+    part.sky.fill(0);
+    for (u32 i = 0; i < 256; ++i)
+        if (first[i] < 16) part.sky[first[i] * 4u + (i >> 6)] |= u64(1) << (i & 63);
+    for (u32 w = 4; w < 64; ++w)
+        part.sky[w] |= part.sky[w - 4];
 }
 
 void classify(LightField& field, Part& part) {

@@ -15,10 +15,10 @@ struct ColumnCanvas {
 
     struct Land {
         float height = 0;
-        float slope = 0;  // largest difference to the four neighbors, blocks
-        i32 ground_y = 0; // first y above the ground
-        TerrainBiome biome = TerrainBiome::plains;
-        bool cold = false; // snow lies here
+        float slope = 0;                           // largest difference to the four neighbors, blocks
+        i32 ground_y = 0;                          // first y above the ground
+        TerrainBiome biome = TerrainBiome::plains; // this and `cold` known one block beyond the column only
+        bool cold = false;                         // snow lies here
         float mountain = 0, river = 0, continent = 0;
     };
 

@@ -55,8 +55,10 @@ void survey_land(ColumnCanvas& c) {
             ColumnCanvas::Land& l = c.land_at(x, z);
             l.height = p.height;
             l.ground_y = ground_of(p.height);
-            l.biome = biome_of(c.keys, p, c.base_x + x, c.base_z + z);
-            l.cold = snow_lies(c.keys, p, c.base_x + x, c.base_z + z);
+            if (x >= -1 && x <= kChunkSize && z >= -1 && z <= kChunkSize) {
+                l.biome = biome_of(c.keys, p, c.base_x + x, c.base_z + z);
+                l.cold = snow_lies(c.keys, p, c.base_x + x, c.base_z + z);
+            }
             l.mountain = p.mountain;
             l.river = p.river;
             l.continent = p.continent;

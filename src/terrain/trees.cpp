@@ -30,6 +30,12 @@ float part_of(u64 dice, u32 shift) {
     return float(dice >> shift & 0xffff) * (1.0f / 65536.0f);
 }
 
+// Rolls that no biome lets grow: spares looking at the land.
+bool may_grow(const Seedling& s) {
+    const float roll = part_of(s.dice, 0);
+    return roll < 0.36f * 1.5f || roll > 0.985f;
+}
+
 Growth growth_of(const TerrainKeys& keys, const Seedling& s, TerrainBiome biome, float slope, i32 ground_y,
                  float height) {
     if (ground_y <= kTerrainSeaLevel || slope > 1.9f) return Growth::none;
@@ -197,8 +203,12 @@ void place_trees(ColumnCanvas& c) {
             const Seedling s = seedling_in(c.keys, cx, cz);
             const i32 x = s.x - c.base_x, z = s.z - c.base_z;
             if (x < -kReach || z < -kReach || x > 15 + kReach || z > 15 + kReach) continue;
+            if (!may_grow(s)) continue;
             const ColumnCanvas::Land& l = c.land_at(x, z);
-            const Growth growth = growth_of(c.keys, s, l.biome, l.slope, l.ground_y, l.height);
+            const TerrainBiome biome = ColumnCanvas::inside(x, 0, z)
+                                           ? l.biome
+                                           : biome_of(c.keys, vitrail::land_at(c.keys, s.x, s.z), s.x, s.z);
+            const Growth growth = growth_of(c.keys, s, biome, l.slope, l.ground_y, l.height);
             if (growth == Growth::none || in_cave(c.keys, s.x, l.ground_y - 1, s.z, l.ground_y)) continue;
             const Brush brush{c, x, l.ground_y, z, s.dice};
             switch (growth) {

@@ -3,6 +3,7 @@
 #include "voxel/cell_mask_wide.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #if defined(__SSE2__)
@@ -43,7 +44,7 @@ u64 even_bits(u64 x) {
 }
 
 bool wide_cpu() {
-    static const bool wide = wide::available();
+    static const bool wide = wide::available() && !std::getenv("VITRAIL_PORTABLE"); // set by tests
     return wide;
 }
 
