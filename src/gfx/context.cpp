@@ -39,7 +39,8 @@ Result<ContextInfo> context_info() {
 static std::atomic<u64> g_errors{0};
 
 static void on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text, const void*) {
-    if (type == GL_DEBUG_TYPE_ERROR) ++g_errors;
+    // The same error comes every frame: the first ones tell enough.
+    if (type == GL_DEBUG_TYPE_ERROR && ++g_errors > 20) return;
     const std::string_view message(text, length < 0 ? std::char_traits<char>::length(text) : std::size_t(length));
     if (type == GL_DEBUG_TYPE_ERROR)
         log_error(fmt::format("OpenGL: {}", message));

@@ -236,7 +236,7 @@ void Renderer::Impl::pass_lighting(const gfx::FrameGraph& g) {
 
 void Renderer::Impl::pass_translucent(const gfx::FrameGraph& g) {
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glBlendFunc(GL_ONE, GL_SRC1_COLOR);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
@@ -245,7 +245,7 @@ void Renderer::Impl::pass_translucent(const gfx::FrameGraph& g) {
             glEnable(GL_STENCIL_TEST);
             glStencilFunc(GL_EQUAL, GLint(i), 0xff);
         }
-        draws[i].inputs.depth = g.target("depth").name();
+        draws[i].inputs.depth = g.target("depth").name(); // sampled while attached, as in pass_lighting
         const Vec4 p = frame->views[i].clip_plane;
         const bool clips = p.x != 0 || p.y != 0 || p.z != 0;
         if (clips) glEnable(GL_CLIP_DISTANCE0);
@@ -253,6 +253,7 @@ void Renderer::Impl::pass_translucent(const gfx::FrameGraph& g) {
         if (clips) glDisable(GL_CLIP_DISTANCE0);
     }
     glDisable(GL_STENCIL_TEST);
+    glBlendFunc(GL_ONE, GL_ZERO); // Mesa refuses several targets while two sources are set, even with blending off
 }
 
 void Renderer::Impl::pass_outlines() {

@@ -16,7 +16,10 @@ layout(binding = 1) uniform sampler3D t_light;
 #ifdef HIGH
 layout(binding = 3) uniform sampler2D t_depth; // of what lies behind
 #endif
-layout(location = 0) out vec4 o_color; // premultiplied
+// Two sources of one blend: what is added, and by color what is let through of the light behind. Water and colored
+// glass absorb; a single opacity would make bright sand under water white.
+layout(location = 0, index = 0) out vec4 o_color;
+layout(location = 0, index = 1) out vec4 o_through;
 
 // Slope of the water: four waves with a whole number of periods over 16 blocks, so that sections meet, nothing swims with
 // the camera and every place of the world has the same.
@@ -53,15 +56,18 @@ void main() {
     // Water's own color is the light it scatters: never as pure as a painted tint.
     if (liquid) base = mix(base, vec3(0.02, 0.12, 0.16) + dot(base, vec3(0.25, 0.55, 0.20)) * vec3(0.35, 0.60, 0.70), 0.6);
     vec3 body = shade(base, n, light, v_uv_ao.z, 0.0, 0.1, towards);
-    float opacity = liquid ? 0.78 : albedo.a;
 #ifdef HIGH
-    if (liquid) {
-        float behind = view.fraction.w / max(texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r, 1e-9);
-        float here = view.fraction.w / max(gl_FragCoord.z, 1e-9);
-        float thickness = max(behind - here, 0.0);
-        opacity = mix(0.93, 0.34, exp2(-thickness * 0.30)) * clamp(thickness * 4.0 + 0.25, 0.0, 1.0);
-    }
+    float behind = view.fraction.w / max(texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r, 1e-9);
+    float here = view.fraction.w / max(gl_FragCoord.z, 1e-9);
+    // Along the ray, not along the view's axis.
+    float thickness = max(behind - here, 0.0) * (away / max(here, 1e-3));
+#else
+    float thickness = 2.2;
 #endif
+    // A liquid's share grows with the way through it; red goes first. Glass has the opacity of its texture, and what passes takes
+    // a little of its color.
+    vec3 clear = liquid ? exp2(-thickness * vec3(0.62, 0.24, 0.17)) * 0.97 : mix(vec3(1.0), albedo.rgb * 1.2, 0.35) * (1.0 - albedo.a);
+    vec3 own = liquid ? 1.0 - exp2(-thickness * vec3(0.34)) : vec3(albedo.a);
     // Mirror: the sky in the reflected direction where the sky is open, else darkness.
     vec3 mirror = reflect(towards, n);
     mirror.y = abs(mirror.y);
@@ -72,11 +78,13 @@ void main() {
     glint *= glint;
     glint *= glint;
     glint *= glint;
-    float strength = liquid ? 1.0 : 0.6;
     reflected += sun_light.rgb * (light.a > 0.9 ? glint * glint * glint * 3.0 : 0.0);
-    float shine = fresnel * strength * (1.0 - view.ray_up.w);
-    float alpha = opacity + (1.0 - opacity) * shine;
-    vec3 color = body * opacity * (1.0 - shine) + reflected * shine;
-    // Fog of the body's own share, so that far water fades like land.
-    o_color = vec4(apply_fog(color / max(alpha, 1e-3), away, towards, view.ray_up.w) * alpha, alpha);
+    float shine = fresnel * (liquid ? 1.0 : 0.6) * (1.0 - view.ray_up.w);
+    clear *= 1.0 - shine;
+    vec3 color = body * own * (1.0 - shine) + reflected * shine;
+    // What lies behind has its fog already; the surface's own light gets the share that it covers.
+    vec3 covered = 1.0 - clear;
+    vec3 fogged = apply_fog(color / max(covered, vec3(1e-3)), away, towards, view.ray_up.w) * covered;
+    o_color = vec4(fogged, 1.0);
+    o_through = vec4(clear, 0.0);
 }
