@@ -1,6 +1,7 @@
 #include "lua/value.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <lua5.4/lua.hpp>
 
@@ -30,7 +31,7 @@ std::string Value::text() const {
     if (const std::string* s = string()) return *s;
     if (const bool* b = boolean()) return *b ? "true" : "false";
     if (const i64* whole = std::get_if<i64>(&data)) return std::to_string(*whole);
-    if (const double* real = std::get_if<double>(&data); real && *real == double(i32(std::clamp(*real, -1e9, 1e9))))
+    if (const double* real = std::get_if<double>(&data); real && std::abs(*real) < 1e9 && *real == std::floor(*real))
         return std::to_string(i32(*real));
     return {};
 }
