@@ -74,9 +74,7 @@ void LightField::run_spread() {
     rising.clear();
 }
 
-void LightField::gather(i32 own, u32 index) {
-    const u32 cost = slots_[std::size_t(own)].costs[index] & kCostBits;
-    u32 most = spread_light(slots_[std::size_t(own)].cells[index]);
+u32 LightField::inflow(i32 own, u32 index, u32 cost, u32 least) {
     for (u32 face = 0; face < 6; ++face) {
         bool crosses;
         const u32 next = step_index(index, face, crosses);
@@ -84,9 +82,37 @@ void LightField::gather(i32 own, u32 index) {
         if (crosses && (from = beside(own, face)) == kNone) continue;
         const Slot& s = slots_[std::size_t(from)];
         if (s.pending) continue;
-        most = lanes_max(lanes_less(spread_light(s.now->get(LocalPos(next))), cost), most);
+        least = lanes_max(lanes_less(spread_light(s.now->get(LocalPos(next))), cost), least);
     }
+    return least;
+}
+
+void LightField::gather(i32 own, u32 index) {
+    const Slot& s = slots_[std::size_t(own)];
+    const u32 most = inflow(own, index, s.costs[index] & kCostBits, spread_light(s.cells[index]));
     slots_[std::size_t(own)].cells[index] = pack_light(most);
+}
+
+void LightField::withdraw_unsupported(i32 own, u32 face) {
+    const LightVolume* now = slots_[std::size_t(own)].now;
+    if (now->uniform() && (now->get(LocalPos()).bits == 0 || now->get(LocalPos()) == Light(15, 0, 0, 0))) return;
+    for (u32 i = 0; i < 256; ++i) {
+        const u32 a = i & 15, b = i >> 4, end = face & 1 ? 15 : 0;
+        const u32 index = face < 2 ? end | a << 4 | b << 8 : face < 4 ? i | end << 8 : a | end << 4 | b << 8;
+        const u32 has = spread_light(slots_[std::size_t(own)].now->get(LocalPos(index)));
+        // Full sky light is the open sky's own.
+        if ((has & ~kSkyLane) == 0 && (has == 0 || has == kSkyFull)) continue;
+        const Slot& s = slots_[std::size_t(own)];
+        u32 held = emission_of(s, index);
+        if ((has & kSkyLane) == kSkyFull) held |= kSkyFull;
+        const u32 cost = cost_of(s, index);
+        const u32 lost = lanes_lit(lanes_minus(has, inflow(own, index, cost, held)));
+        if (!lost) continue;
+        open(own);
+        slots_[std::size_t(own)].cells[index] = pack_light((has & ~lost) | (held & lost));
+        withdrawn.push_back({u32(own) << 12 | index, has & lost});
+        rising.push_back(u32(own) << 12 | index);
+    }
 }
 
 } // namespace vitrail

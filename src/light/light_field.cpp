@@ -85,6 +85,7 @@ void LightField::light_up(i32 i, std::shared_ptr<LightVolume> volume) {
     s.now = s.next.get();
     s.cells = nullptr; // opened again when written
     s.pending = false;
+    s.fresh = true;
 }
 
 void LightField::finish(std::vector<ChunkPos>& light_chunks) {

@@ -30,6 +30,7 @@ public:
         i32 beside[6] = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
         bool pending = false;  // to be lit from nothing later: has no cells yet
         bool sky_only = false; // known to hold no block light
+        bool fresh = false;    // lit from nothing in this work
     };
 
     // Starts work on a dimension; finish() or abandon() ends it.
@@ -72,8 +73,12 @@ public:
     // Takes all light that came from withdrawn cells only, and adds to `rising` the cells that can fill the dark.
     void run_withdrawal();
     void run_spread();
+    // The most that its neighbors let into a cell, and no less than `least`.
+    u32 inflow(i32 slot, u32 index, u32 cost, u32 least);
     // Raises an (opened) cell to what its neighbors let in.
     void gather(i32 slot, u32 index);
+    // Withdraws light of a chunk along a face that nothing holds up any more.
+    void withdraw_unsupported(i32 slot, u32 face);
 
 private:
     i32 find_beside(i32 slot, u32 face);

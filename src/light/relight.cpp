@@ -128,6 +128,14 @@ ChangeSet relight_chunks(Dimension& dimension, std::span<const ChunkPos> chunks)
         const ColumnHeights heights = dimension.info().has_sky ? heights_of(dimension, column) : ColumnHeights{};
         solve_column(field, pending[column], heights);
     }
+    // A chunk that stayed while its neighbor was away may have kept light that came through it.
+    for (const ColumnPos column : columns)
+        for (const i32 slot : pending[column])
+            for (u32 face = 0; face < 6; ++face) {
+                const i32 to = field.beside(slot, face);
+                if (to != LightField::kNone && !field.slot(to).fresh) field.withdraw_unsupported(to, face ^ 1);
+            }
+    field.run_withdrawal();
     field.run_spread();
     field.finish(out.light_chunks);
     return out;

@@ -350,6 +350,42 @@ TEST_F(Edited, TunnelAcrossChunks) {
     EXPECT_EQ(d.light_at({1, -20, 0}), Light());
 }
 
+// Light that went out through a chunk and back must go when its lamp is lost while that chunk is away.
+TEST_F(Edited, UnloadingAndComingBackIsExact) {
+    for (u64 seed = 1; seed <= 6; ++seed) {
+        Rng rng(seed * 13);
+        d = Dimension(small_info(), world().states);
+        all.clear();
+        fill(rng, 2);
+        for (u32 round = 0; round < 6; ++round) {
+            std::map<std::tuple<i32, i32, i32>, ChunkPtr> away;
+            const i32 ax = i32(rng.below(2)), az = i32(rng.below(2));
+            for (const ChunkPos p : all)
+                if ((p.x == ax && p.z == az) || rng.below(8) == 0) {
+                    away[{p.x, p.y, p.z}] = d.find(p);
+                    d.erase(p);
+                }
+            std::vector<Edit> edits; // holes, walls and lamps by the borders
+            for (u32 i = 0; i < 300; ++i)
+                edits.push_back({{12 + i32(rng.below(8)), i32(rng.below(60)) - 30, 12 + i32(rng.below(8))},
+                                 world().ids[rng.below(3) ? World::air : rng.below(World::count)]});
+            edit(edits);
+            std::vector<ChunkPos> back;
+            for (const auto& [at, chunk] : away) {
+                auto copy = std::make_shared<Chunk>(*chunk);
+                copy->light = nullptr;
+                back.push_back({std::get<0>(at), std::get<1>(at), std::get<2>(at)});
+                d.put(back.back(), copy);
+            }
+            for (const ChunkPos p : all)
+                d.put_heights(column_of(p), compute_heights(d, column_of(p)));
+            relight_chunks(d, back);
+            expect_exact(d, "back again");
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
 TEST_F(Edited, ChangesThatLightDoesNotSeeAreFree) {
     empty(1);
     const ChangeSet c = edit({{{0, 5, 0}, world().ids[World::glass]}});
