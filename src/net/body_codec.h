@@ -1,5 +1,5 @@
-// Bodies and movement commands to and from the wire. Templates, because net and rules are of one layer and neither knows
-// the other: Body is rules' BodyState, Command its MoveCommand.
+// Bodies and movement commands to and from the wire. Templates, because net and rules are of one layer and neither
+// knows the other: Body is rules' BodyState, Command its MoveCommand.
 #pragma once
 
 #include "net/messages.h"
@@ -13,7 +13,8 @@ WireBody wire_body(const Body& b) {
     w.at = to_wire(b.feet.at);
     w.vx = b.velocity.x, w.vy = b.velocity.y, w.vz = b.velocity.z;
     w.yaw = b.yaw, w.pitch = b.pitch;
-    w.bits = u32(b.on_ground) | u32(b.flying) << 1 | u32(b.sneaking) << 2 | u32(b.in_liquid) << 3 | u32(b.climbing) << 4;
+    w.bits =
+        u32(b.on_ground) | u32(b.flying) << 1 | u32(b.sneaking) << 2 | u32(b.in_liquid) << 3 | u32(b.climbing) << 4;
     return w;
 }
 

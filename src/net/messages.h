@@ -4,10 +4,10 @@
 // On the wire: one byte of MessageType, then the struct's numbered fields (base/fields.h). A receiver skips fields it
 // does not know and refuses a type it does not know. Every count is bounded here; both sides check on reading.
 //
-// Channels (reliable and ordered each, but for `motion`): `control` greetings, requests and talk; `world` welcome, all that
-// changes a replica's blocks and the answers to edits, so that state texts come before sections that use them, deltas after
-// the section they change, and an answer after the changes it speaks of; `motion` commands and bodies, which may be lost:
-// each batch repeats what was not answered yet.
+// Channels (reliable and ordered each, but for `motion`): `control` greetings, requests and talk; `world` welcome, all
+// that changes a replica's blocks and the answers to edits, so that state texts come before sections that use them,
+// deltas after the section they change, and an answer after the changes it speaks of; `motion` commands and bodies,
+// which may be lost: each batch repeats what was not answered yet.
 #pragma once
 
 #include "base/fields.h"
@@ -112,11 +112,14 @@ struct WireBody {
     float vx = 0, vy = 0, vz = 0; // blocks a second
     float yaw = 0, pitch = 0;     // radians
     u32 bits = 0;                 // on_ground, flying, sneaking, in_liquid, climbing, from bit 0
-    static constexpr auto fields =
-        std::tuple{field<1>("dimension", &WireBody::dimension), field<2>("at", &WireBody::at),
-                   field<3>("vx", &WireBody::vx), field<4>("vy", &WireBody::vy), field<5>("vz", &WireBody::vz),
-                   field<6>("yaw", &WireBody::yaw), field<7>("pitch", &WireBody::pitch),
-                   field<8>("bits", &WireBody::bits)};
+    static constexpr auto fields = std::tuple{field<1>("dimension", &WireBody::dimension),
+                                              field<2>("at", &WireBody::at),
+                                              field<3>("vx", &WireBody::vx),
+                                              field<4>("vy", &WireBody::vy),
+                                              field<5>("vz", &WireBody::vz),
+                                              field<6>("yaw", &WireBody::yaw),
+                                              field<7>("pitch", &WireBody::pitch),
+                                              field<8>("bits", &WireBody::bits)};
     friend bool operator==(const WireBody&, const WireBody&) = default;
 };
 

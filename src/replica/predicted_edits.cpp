@@ -6,7 +6,9 @@
 
 namespace vitrail::replica {
 
-void Replica::mark(ChunkPos at, u8 what) { dirty_[at] |= what; }
+void Replica::mark(ChunkPos at, u8 what) {
+    dirty_[at] |= what;
+}
 
 void Replica::mark_borders(ChunkPos at, u8 what) {
     const u8 border = u8((what & kBlocksChanged ? kBorderBlocks : 0) | (what & kLightChanged ? kBorderLight : 0));
@@ -58,8 +60,10 @@ ChangeSet Replica::predict(const std::vector<Edit>& edits) {
         const auto stood = before.find(at);
         if (stood != before.end() && stood->second) server_chunks_.try_emplace(at, stood->second);
     };
-    for (ChunkPos at : changes.block_chunks) keep(at);
-    for (ChunkPos at : changes.light_chunks) keep(at);
+    for (ChunkPos at : changes.block_chunks)
+        keep(at);
+    for (ChunkPos at : changes.light_chunks)
+        keep(at);
     return changes;
 }
 
@@ -70,7 +74,8 @@ void Replica::settle() {
         shown.emplace(at, dimension_->find(at));
         dimension_->put(at, chunk);
     }
-    for (const auto& [at, heights] : server_heights_) dimension_->put_heights(at, heights);
+    for (const auto& [at, heights] : server_heights_)
+        dimension_->put_heights(at, heights);
     server_chunks_.clear();
     server_heights_.clear();
     for (const PendingEdit& pending : pending_) {
@@ -133,8 +138,10 @@ Result<u32> Replica::request(net::EditRequest message, std::vector<Edit> edits) 
     edits.insert(edits.end(), guesses.begin(), guesses.end());
     pending_.push_back({sequence, std::move(edits)});
     const ChangeSet changes = predict(pending_.back().edits);
-    for (ChunkPos p : changes.block_chunks) mark(p, kBlocksChanged), mark_borders(p, kBlocksChanged);
-    for (ChunkPos p : changes.light_chunks) mark(p, kLightChanged), mark_borders(p, kLightChanged);
+    for (ChunkPos p : changes.block_chunks)
+        mark(p, kBlocksChanged), mark_borders(p, kBlocksChanged);
+    for (ChunkPos p : changes.light_chunks)
+        mark(p, kLightChanged), mark_borders(p, kLightChanged);
     return sequence;
 }
 

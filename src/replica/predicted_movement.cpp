@@ -50,7 +50,8 @@ void Replica::send_commands() {
     unsent_ = false;
     net::MoveCommands message;
     message.commands.reserve(commands_.size());
-    for (const SentCommand& sent : commands_) message.commands.push_back(net::wire_command(sent.command));
+    for (const SentCommand& sent : commands_)
+        message.commands.push_back(net::wire_command(sent.command));
     send(net::Channel::motion, message);
 }
 

@@ -14,7 +14,9 @@ Replica::Replica(std::unique_ptr<net::Transport> transport, ReplicaOptions optio
     send(net::Channel::control, hello);
 }
 
-Replica::~Replica() { leave(); }
+Replica::~Replica() {
+    leave();
+}
 
 template <class M>
 void Replica::send(net::Channel channel, const M& message) {
@@ -41,20 +43,27 @@ void Replica::lose(std::string reason) {
 std::vector<DirtySection> Replica::take_dirty() {
     std::vector<DirtySection> out;
     out.reserve(dirty_.size());
-    for (const auto& [at, what] : dirty_) out.push_back({at, what});
+    for (const auto& [at, what] : dirty_)
+        out.push_back({at, what});
     dirty_.clear();
     return out;
 }
 
-std::vector<EditAnswer> Replica::take_answers() { return std::exchange(answers_, {}); }
-std::vector<net::Notice> Replica::take_notices() { return std::exchange(notices_, {}); }
+std::vector<EditAnswer> Replica::take_answers() {
+    return std::exchange(answers_, {});
+}
+std::vector<net::Notice> Replica::take_notices() {
+    return std::exchange(notices_, {});
+}
 
 void Replica::set_view_distance(u32 chunks) {
     options_.view_distance = view_distance_ = chunks;
     send(net::Channel::control, net::SetView{chunks});
 }
 
-void Replica::say(const std::string& text) { send(net::Channel::control, net::Say{text}); }
+void Replica::say(const std::string& text) {
+    send(net::Channel::control, net::Say{text});
+}
 
 void Replica::set_hotbar(std::vector<std::string> names, u32 selected) {
     hotbar_ = names;

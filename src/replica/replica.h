@@ -184,7 +184,7 @@ private:
     };
     BodyState body_, body_before_;
     std::deque<SentCommand> commands_; // not answered
-    BodyState base_; // the server's, after command answered_
+    BodyState base_;                   // the server's, after command answered_
     u32 next_command_ = 1, answered_ = 0;
     bool unsent_ = false, toggle_waits_ = false;
     float due_ = 0, alpha_ = 0; // seconds; part of a step

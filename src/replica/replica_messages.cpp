@@ -14,6 +14,7 @@ namespace {
 
 constexpr u32 kSectionBytesMost = 1u << 20; // decompressed
 constexpr std::size_t kNoticesMost = 1000;
+constexpr std::size_t kSectionsMost = 400000; // far above any view: a server must not fill this machine's memory
 
 bool sound(const DimensionInfo& info) {
     return info.min_y < info.max_y && info.min_y % 16 == 0 && info.max_y % 16 == 0 && info.min_y >= -kWorldEdge &&
@@ -41,9 +42,10 @@ void Replica::hear(ByteView bytes) {
     stats_.bytes += bytes.size();
     auto message = net::decode_server_message(bytes);
     if (!message) return lose(fmt::format("bad message from the server: {}", message.error().message));
-    if (!joined() && (message->index() > 1 && !std::holds_alternative<net::Goodbye>(*message) &&
-                      !std::holds_alternative<net::Notice>(*message) && !std::holds_alternative<net::TimeOfDay>(*message) &&
-                      !std::holds_alternative<net::BodyState>(*message)))
+    if (!joined() &&
+        (message->index() > 1 && !std::holds_alternative<net::Goodbye>(*message) &&
+         !std::holds_alternative<net::Notice>(*message) && !std::holds_alternative<net::TimeOfDay>(*message) &&
+         !std::holds_alternative<net::BodyState>(*message)))
         return lose("the server speaks of a world before its welcome");
     auto taken = std::visit([&](auto& m) { return take(m); }, *message);
     if (!taken) lose(fmt::format("bad message from the server: {}", taken.error().message));
@@ -122,10 +124,13 @@ Result<> Replica::check_dimension(u32 id) const {
 
 Result<> Replica::take(net::Sections& message) {
     VX_TRY(check_dimension(message.dimension));
+    if (dimension_->chunks().size() > kSectionsMost) return fail(ErrorCode::limit, "too many sections");
     for (const net::WireSection& section : message.sections) {
         const ChunkPos at = net::from_wire(section.at);
-        if (!in_world(at) || !dimension_->contains(origin_of(at))) return fail(ErrorCode::damaged, "a section outside the world");
-        VX_TRY_ASSIGN(Chunk chunk, decode_chunk(section.chunk, {u32(own_states_.size()), biomes_.size(), kSectionBytesMost}));
+        if (!in_world(at) || !dimension_->contains(origin_of(at)))
+            return fail(ErrorCode::damaged, "a section outside the world");
+        VX_TRY_ASSIGN(Chunk chunk,
+                      decode_chunk(section.chunk, {u32(own_states_.size()), biomes_.size(), kSectionBytesMost}));
         std::vector<StateId> palette(chunk.blocks.palette().begin(), chunk.blocks.palette().end());
         bool same = true;
         for (StateId& id : palette) {
@@ -150,9 +155,11 @@ Result<> Replica::take(net::Sections& message) {
 
 Result<> Replica::take(net::AirSections& message) {
     VX_TRY(check_dimension(message.dimension));
+    if (dimension_->chunks().size() > kSectionsMost) return fail(ErrorCode::limit, "too many sections");
     for (const net::WireChunkPos& p : message.at) {
         const ChunkPos at = net::from_wire(p);
-        if (!in_world(at) || !dimension_->contains(origin_of(at))) return fail(ErrorCode::damaged, "a section outside the world");
+        if (!in_world(at) || !dimension_->contains(origin_of(at)))
+            return fail(ErrorCode::damaged, "a section outside the world");
         ++stats_.sections;
         put_server_chunk(at, open_air_, kBlocksChanged | kLightChanged);
     }
@@ -178,8 +185,10 @@ Result<> Replica::take(net::HeightsOfColumns& message) {
         const ColumnPos at{h.x, h.z};
         if (!in_world(ChunkPos{at.x, 0, at.z})) return fail(ErrorCode::damaged, "a column outside the world");
         const auto kept = server_heights_.find(at);
-        if (kept == server_heights_.end()) dimension_->put_heights(at, heights);
-        else kept->second = heights, unsettled_ = true;
+        if (kept == server_heights_.end())
+            dimension_->put_heights(at, heights);
+        else
+            kept->second = heights, unsettled_ = true;
     }
     return {};
 }
@@ -208,7 +217,8 @@ Result<> Replica::take(net::LightChanges& message) {
         const ChunkPtr base = server_chunk(at);
         if (!base) return fail(ErrorCode::damaged, "light of a section that was not sent");
         auto light = std::make_shared<LightVolume>(*base->light);
-        for (std::size_t i = 0; i < delta.cells.size(); ++i) light->set(LocalPos(delta.cells[i]), Light(u16(delta.values[i])));
+        for (std::size_t i = 0; i < delta.cells.size(); ++i)
+            light->set(LocalPos(delta.cells[i]), Light(u16(delta.values[i])));
         light->compact();
         auto chunk = std::make_shared<Chunk>(*base);
         chunk->light = std::move(light);

@@ -14,13 +14,17 @@ namespace vitrail::server {
 
 namespace {
 
-ColumnPos column_of_player(const Session& session) { return column_of(chunk_of(block_of(session.body.feet.at))); }
+ColumnPos column_of_player(const Session& session) {
+    return column_of(chunk_of(block_of(session.body.feet.at)));
+}
 
 bool in_range(ColumnPos a, ColumnPos b, i32 radius) {
     return std::abs(i64(a.x) - b.x) <= radius && std::abs(i64(a.z) - b.z) <= radius;
 }
 
-bool column_in_world(ColumnPos at) { return in_world(ChunkPos{at.x, 0, at.z}); }
+bool column_in_world(ColumnPos at) {
+    return in_world(ChunkPos{at.x, 0, at.z});
+}
 
 // Smaller is sooner: the distance in chunks, columns behind the player count as half as far again.
 float urgency(const Session& session, ColumnPos at) {
@@ -52,11 +56,13 @@ bool surrounded(const ServerDimension& dimension, ColumnPos at) {
 ChunkPtr require_chunk(ServerDimension& dimension, ChunkPos at) {
     if (ChunkPtr chunk = dimension.dimension.find(at)) return chunk;
     const auto found = dimension.columns.find(column_of(at));
-    if (found == dimension.columns.end() || found->second.state != Column::State::ready || !found->second.made) return nullptr;
+    if (found == dimension.columns.end() || found->second.state != Column::State::ready || !found->second.made)
+        return nullptr;
     if (!dimension.dimension.contains(origin_of(at))) return nullptr;
     dimension.dimension.put(at, std::make_shared<const Chunk>());
     const ChunkPos one[1] = {at};
-    for (ChunkPos lit : relight_chunks(dimension.dimension, one).light_chunks) dimension.light_changed.insert(lit);
+    for (ChunkPos lit : relight_chunks(dimension.dimension, one).light_chunks)
+        dimension.light_changed.insert(lit);
     return dimension.dimension.find(at);
 }
 
@@ -70,7 +76,8 @@ void request_columns(ServerWorld& world) {
             if (!session->joined || session->dimension() != id) continue;
             const ColumnPos here = column_of_player(*session);
             const i32 radius = i32(session->view_distance) + kLoadMargin;
-            if (session->columns_complete && session->loaded_around == here && session->loaded_radius == radius) continue;
+            if (session->columns_complete && session->loaded_around == here && session->loaded_radius == radius)
+                continue;
             bool complete = true;
             for (i32 dz = -radius; dz <= radius; ++dz)
                 for (i32 dx = -radius; dx <= radius; ++dx) {
@@ -131,13 +138,15 @@ void publish_columns(ServerWorld& world, float budget_ms) {
             dimension.dimension.put(c.at, std::move(c.chunk));
         }
         dimension.dimension.put_heights(a.at, data.heights);
-        for (ChunkPos lit : relight_chunks(dimension.dimension, positions).light_chunks) dimension.light_changed.insert(lit);
+        for (ChunkPos lit : relight_chunks(dimension.dimension, positions).light_chunks)
+            dimension.light_changed.insert(lit);
         found->second = {Column::State::ready, data.made, data.stored};
         ++dimension.opened;
     }
     if (i < arrived.size()) {
         std::lock_guard lock(world.mailbox->mutex);
-        world.mailbox->columns.insert(world.mailbox->columns.begin(), std::make_move_iterator(arrived.begin() + std::ptrdiff_t(i)),
+        world.mailbox->columns.insert(world.mailbox->columns.begin(),
+                                      std::make_move_iterator(arrived.begin() + std::ptrdiff_t(i)),
                                       std::make_move_iterator(arrived.end()));
     }
 }

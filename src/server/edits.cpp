@@ -39,7 +39,8 @@ Result<EditBatch> judge(ServerWorld& world, ServerDimension& dimension, const Se
     if (!ready(dimension, column_of(chunk_of(at)))) return fail(ErrorCode::denied, "nothing is loaded here");
     if (!request.target.empty() && states.info(dimension.dimension.state_at(at)).state.to_string() != request.target)
         return fail(ErrorCode::denied, "the block has changed");
-    if (is_hidden(at, [&](BlockPos p) { return state_for_surface(dimension, p); }, opaque_states(states)))
+    if (is_hidden(
+            at, [&](BlockPos p) { return state_for_surface(dimension, p); }, opaque_states(states)))
         return fail(ErrorCode::denied, "this block cannot be seen");
     if (request.kind == net::EditKind::break_block) return break_block(dimension.dimension, at);
     if (request.kind != net::EditKind::place_block) return fail(ErrorCode::unsupported, "an edit of an unknown kind");
@@ -82,7 +83,8 @@ void run_edits(ServerWorld& world) {
             ServerDimension& dimension = world.dimensions.at(session->dimension());
             auto verdict = judge(world, dimension, *session, request);
             if (!verdict) {
-                session->results.push_back({request.sequence, net::EditOutcome::refused, verdict.error().message.substr(0, 256)});
+                session->results.push_back(
+                    {request.sequence, net::EditOutcome::refused, verdict.error().message.substr(0, 256)});
                 continue;
             }
             edit_world(world, dimension, *verdict);

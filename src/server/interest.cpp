@@ -11,13 +11,14 @@ namespace vitrail::server {
 
 namespace {
 
-constexpr u32 kTableSliceMost = 1024;   // texts a message
-constexpr u32 kSectionsAMessage = 64;   // well below the format's bound, so that the first are drawn early
+constexpr u32 kTableSliceMost = 1024; // texts a message
+constexpr u32 kSectionsAMessage = 64; // well below the format's bound, so that the first are drawn early
 constexpr u32 kMessageBytesGoal = 128u << 10;
-constexpr u32 kWalkTicksLeast = 4;      // between walks that only follow loading
-constexpr i32 kSkyMargin = 4;           // sections above and below the dimension that the walk may use
+constexpr std::size_t kCellsAMessage = 100000, kDeltasAMessage = 1024;
+constexpr u32 kWalkTicksLeast = 4; // between walks that only follow loading
+constexpr i32 kSkyMargin = 4;      // sections above and below the dimension that the walk may use
 constexpr u32 kParts = kChunkBlocks | kChunkLight | kChunkBiomes | kChunkRevision;
-constexpr u16 kOpenSky = 15;            // Light bits: full sky, no block light
+constexpr u16 kOpenSky = 15; // Light bits: full sky, no block light
 
 const std::shared_ptr<const LightVolume>& open_sky() {
     static const auto volume = std::make_shared<const LightVolume>(Light(kOpenSky));
@@ -29,8 +30,8 @@ ServerDimension& dimension_of(ServerWorld& world, const Session& session) {
 }
 
 bool is_open_air(const Chunk& chunk) {
-    return chunk.blocks.uniform() && chunk.blocks.palette()[0] == StateId::air && chunk.light && chunk.light->uniform() &&
-           chunk.light->get(LocalPos()) == Light(kOpenSky);
+    return chunk.blocks.uniform() && chunk.blocks.palette()[0] == StateId::air && chunk.light &&
+           chunk.light->uniform() && chunk.light->get(LocalPos()) == Light(kOpenSky);
 }
 
 bool within(ChunkPos p, ChunkPos center, i32 radius) {
@@ -64,8 +65,7 @@ void let_go_beyond(Session& session, ChunkPos here) {
         }
     }
     if (!gone.at.empty()) send(session, net::Channel::world, gone);
-    std::erase_if(session.heights_told,
-                  [&](ColumnPos c) { return !within(ChunkPos{c.x, 0, c.z}, here, radius); });
+    std::erase_if(session.heights_told, [&](ColumnPos c) { return !within(ChunkPos{c.x, 0, c.z}, here, radius); });
 }
 
 net::WireHeights wire_heights(ColumnPos at, const ColumnHeights& heights) {
@@ -88,7 +88,9 @@ void send_one_section(ServerDimension& dimension, Session& session, ChunkPos at,
 
 } // namespace
 
-OpaqueStates opaque_states(const StateTable& states) { return {states.flags_data(), kOpaqueCube}; }
+OpaqueStates opaque_states(const StateTable& states) {
+    return {states.flags_data(), kOpaqueCube};
+}
 
 StateId state_for_surface(const ServerDimension& dimension, BlockPos at) {
     const DimensionInfo& info = dimension.dimension.info();
@@ -106,8 +108,10 @@ Chunk surface_of(const ServerDimension& dimension, ChunkPos at, const Chunk& chu
     for (u32 f = 0; f < 6; ++f) {
         const ChunkPos p = neighbor(at, Face(f));
         kept[f] = dimension.dimension.find(p);
-        if (kept[f]) around[f] = kept[f].get();
-        else if (state_for_surface(dimension, origin_of(p)) == StateId::air) around[f] = &air;
+        if (kept[f])
+            around[f] = kept[f].get();
+        else if (state_for_surface(dimension, origin_of(p)) == StateId::air)
+            around[f] = &air;
     }
     return make_surface_chunk(chunk, around, opaque_states(dimension.dimension.states()), true);
 }
@@ -142,7 +146,8 @@ void update_interest(ServerWorld& world, Session& session) {
     };
     const ChunkPos eye = section_of(eye_of(session.body)), feet = section_of(session.body.feet.at);
     const bool moved = !(eye == session.walked_from) || !(feet == session.walked_feet);
-    const bool opened = dimension.opened != session.walked_opened && world.tick >= session.walked_tick + kWalkTicksLeast;
+    const bool opened =
+        dimension.opened != session.walked_opened && world.tick >= session.walked_tick + kWalkTicksLeast;
     if (!moved && !opened && !session.walk_again) return;
     if (moved || session.walk_again) let_go_beyond(session, eye);
     session.walked_from = eye, session.walked_feet = feet;
@@ -199,7 +204,8 @@ void send_sections(ServerWorld& world, Session& session) {
         const ChunkPtr chunk = dimension.dimension.find(at);
         if (!chunk && !dimension.columns.at(column).made) continue;
         if (session.heights_told.insert(column).second)
-            if (const ColumnHeights* h = dimension.dimension.heights(column)) heights.columns.push_back(wire_heights(column, *h));
+            if (const ColumnHeights* h = dimension.dimension.heights(column))
+                heights.columns.push_back(wire_heights(column, *h));
         if (!chunk || is_open_air(*chunk)) {
             air.at.push_back(net::to_wire(at));
             session.held[at] = {chunk ? chunk->revision : 0, open_sky(), true};
@@ -213,8 +219,8 @@ void send_sections(ServerWorld& world, Session& session) {
             ++world.stats.sections_sent;
             world.stats.bytes_sent += bytes;
         }
-        if (sections.sections.size() >= kSectionsAMessage || message_bytes >= kMessageBytesGoal || air.at.size() >= 2048 ||
-            heights.columns.size() >= 128)
+        if (sections.sections.size() >= kSectionsAMessage || message_bytes >= kMessageBytesGoal ||
+            air.at.size() >= 2048 || heights.columns.size() >= 128)
             flush();
     }
     flush();
@@ -235,8 +241,8 @@ void tell_block_changes(ServerWorld& world, ServerDimension& dimension, const Ch
     }
     if (opened) ++dimension.opened;
 
-    const std::vector<Edit> edits =
-        surface_edits(changes, [&](BlockPos p) { return state_for_surface(dimension, p); }, opaque);
+    const std::vector<Edit> edits = surface_edits(
+        changes, [&](BlockPos p) { return state_for_surface(dimension, p); }, opaque);
     std::vector<net::WireChunkDelta> deltas;
     std::unordered_map<ChunkPos, std::size_t> index;
     for (const Edit& e : edits) {
@@ -254,16 +260,23 @@ void tell_block_changes(ServerWorld& world, ServerDimension& dimension, const Ch
         session->walk_again |= opened;
         tell_tables(world, *session);
         net::BlockChanges message{u32(session->dimension()), {}};
+        std::size_t cells = 0;
         for (const auto& delta : deltas) {
             const ChunkPos at = net::from_wire(delta.at);
             const auto held = session->held.find(at);
             if (held == session->held.end()) continue;
             if (held->second.air_notice) {
-                if (const ChunkPtr chunk = dimension.dimension.find(at)) send_one_section(dimension, *session, at, *chunk);
+                if (const ChunkPtr chunk = dimension.dimension.find(at))
+                    send_one_section(dimension, *session, at, *chunk);
                 continue;
             }
             held->second.revision = delta.revision;
             message.chunks.push_back(delta);
+            cells += delta.cells.size();
+            if (cells > kCellsAMessage || message.chunks.size() >= kDeltasAMessage) {
+                send(*session, net::Channel::world, message);
+                message.chunks.clear(), cells = 0;
+            }
         }
         if (!message.chunks.empty()) send(*session, net::Channel::world, message);
     }
@@ -293,10 +306,16 @@ void tell_light_changes(ServerWorld& world) {
         for (auto& session : world.sessions) {
             if (!session->joined || session->gone || session->dimension() != id) continue;
             net::HeightsOfColumns heights{u32(id), {}};
-            for (ColumnPos at : dimension.heights_changed)
-                if (session->heights_told.contains(at) && heights.columns.size() < 256)
-                    if (const ColumnHeights* h = dimension.dimension.heights(at)) heights.columns.push_back(wire_heights(at, *h));
-            if (!heights.columns.empty()) send(*session, net::Channel::world, heights);
+            auto flush_heights = [&] {
+                if (!heights.columns.empty()) send(*session, net::Channel::world, heights);
+                heights.columns.clear();
+            };
+            for (ColumnPos at : dimension.heights_changed) {
+                const ColumnHeights* h = session->heights_told.contains(at) ? dimension.dimension.heights(at) : nullptr;
+                if (h) heights.columns.push_back(wire_heights(at, *h));
+                if (heights.columns.size() == 256) flush_heights();
+            }
+            flush_heights();
             net::LightChanges message{u32(id), {}};
             std::size_t cells = 0;
             for (ChunkPos at : dimension.light_changed) {
@@ -317,7 +336,7 @@ void tell_light_changes(ServerWorld& world) {
                 held->second.revision = chunk->revision;
                 cells += delta.cells.size();
                 message.chunks.push_back(std::move(delta));
-                if (cells > 100000) {
+                if (cells > kCellsAMessage || message.chunks.size() >= kDeltasAMessage) {
                     send(*session, net::Channel::world, message);
                     message.chunks.clear(), cells = 0;
                 }

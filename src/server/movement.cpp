@@ -9,8 +9,8 @@ namespace vitrail::server {
 
 namespace {
 
-constexpr float kStepsATick = 3;       // 60 steps a second at 20 ticks
-constexpr float kStepsSavedMost = 30;  // half a second of lag may be caught up
+constexpr float kStepsATick = 3;      // 60 steps a second at 20 ticks
+constexpr float kStepsSavedMost = 30; // half a second of lag may be caught up
 
 } // namespace
 

@@ -15,7 +15,6 @@ namespace {
 
 constexpr float kDegrees = 57.29577951f; // a radian
 
-
 // A new world: its level record and dimensions, durable before anyone plays.
 Result<LevelRecord> make_level(WorldRecords& records, const ServerOptions& options, u64 content_hash) {
     LevelRecord level;
@@ -24,7 +23,8 @@ Result<LevelRecord> make_level(WorldRecords& records, const ServerOptions& optio
     level.generator_version = ChunkSource::generator_version(options.generator);
     level.content_hash = content_hash;
     level.time_ticks = 1000; // morning
-    if (options.seed) level.seed = *options.seed;
+    if (options.seed)
+        level.seed = *options.seed;
     else {
         std::random_device device;
         level.seed = u64(device()) << 32 | device();
@@ -51,8 +51,10 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shar
     open.read_only = options.read_only;
     VX_TRY_ASSIGN(world->records, WorldRecords::open(options.folder, registry, open));
     VX_TRY_ASSIGN(auto level, world->records->load_level());
-    if (level) world->level = std::move(*level);
-    else if (options.read_only) return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
+    if (level)
+        world->level = std::move(*level);
+    else if (options.read_only)
+        return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
     else {
         VX_TRY_ASSIGN(world->level, make_level(*world->records, options, world->content_hash));
     }
@@ -69,12 +71,15 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shar
     SaveQueueOptions save_options;
     save_options.group_ms = options.save_group_ms;
     save_options.on_trouble = [](const std::optional<Error>& error) {
-        if (error) log_error(fmt::format("saving the world fails, trying again: {}", error->message));
-        else log_info("saving the world works again");
+        if (error)
+            log_error(fmt::format("saving the world fails, trying again: {}", error->message));
+        else
+            log_info("saving the world works again");
     };
     world->saves = std::make_unique<SaveQueue>(*world->records, save_options);
-    VX_TRY_ASSIGN(world->source, ChunkSource::create(*world->records, *world->saves,
-                                                     {world->level.seed, world->level.generator, DimensionId::overworld}));
+    VX_TRY_ASSIGN(world->source,
+                  ChunkSource::create(*world->records, *world->saves,
+                                      {world->level.seed, world->level.generator, DimensionId::overworld}));
     world->pool = std::make_unique<ThreadPool>(options.threads);
     world->options = std::move(options);
     return world;
@@ -115,7 +120,8 @@ static Result<> place_at_start(const ServerWorld& world, Session& session) {
 
 Result<> restore_player(ServerWorld& world, Session& session) {
     std::optional<PlayerRecord> record;
-    if (const auto left = world.players_left.find(session.name); left != world.players_left.end()) record = left->second;
+    if (const auto left = world.players_left.find(session.name); left != world.players_left.end())
+        record = left->second;
     else {
         VX_TRY_ASSIGN(record, world.records->load_player(session.name));
     }
@@ -129,8 +135,9 @@ Result<> restore_player(ServerWorld& world, Session& session) {
         session.hotbar_selected = record->hotbar_slot;
         return {};
     }
-    session.body.feet.dimension =
-        world.dimensions.contains(world.level.spawn.dimension) ? world.level.spawn.dimension : world.dimensions.begin()->first;
+    session.body.feet.dimension = world.dimensions.contains(world.level.spawn.dimension)
+                                      ? world.level.spawn.dimension
+                                      : world.dimensions.begin()->first;
     session.body.feet.at = corner_of(world.level.spawn.at);
     session.body.feet.at.x += kFixedOne / 2, session.body.feet.at.z += kFixedOne / 2;
     session.body.yaw = world.level.spawn_yaw / kDegrees;
@@ -192,7 +199,8 @@ void save_changes(ServerWorld& world) {
     bool any = world.level_dirty;
     for (auto& [id, dimension] : world.dimensions)
         any |= !dimension.dirty_chunks.empty() || !dimension.dirty_columns.empty();
-    for (auto& session : world.sessions) any |= session->player_dirty || session->unkept_sequence != 0;
+    for (auto& session : world.sessions)
+        any |= session->player_dirty || session->unkept_sequence != 0;
     if (!any) return;
     std::vector<std::pair<u32, u32>> kept;
     SaveBatch batch = gather(world, false);

@@ -31,7 +31,8 @@ bool is_idle(const ServerWorld& world) {
         if (dimension.loading > 0 || !dimension.light_changed.empty()) return false;
     for (const auto& session : world.sessions) {
         if (!session->joined || session->gone || session->walk_again || !session->columns_complete) return false;
-        if (session->walked_opened != world.dimensions.at(session->dimension()).opened || !session->wanted.empty()) return false;
+        if (session->walked_opened != world.dimensions.at(session->dimension()).opened || !session->wanted.empty())
+            return false;
         if (session->bytes_acknowledged != session->bytes_sent) return false;
     }
     return !world.sessions.empty();
@@ -117,7 +118,8 @@ Result<> Server::stop() {
     for (auto& session : world_->sessions)
         if (!session->gone) send(*session, net::Channel::control, net::Goodbye{"the server stops"});
     auto saved = save_all(*world_);
-    for (auto& session : world_->sessions) session->transport->close();
+    for (auto& session : world_->sessions)
+        session->transport->close();
     world_->sessions.clear();
     return saved;
 }

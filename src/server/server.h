@@ -37,12 +37,12 @@ struct StartPlace {
 };
 
 struct ServerOptions {
-    std::string folder;                  // the world's directory
-    bool create = true;                  // make a world where there is none
-    std::optional<u64> seed;             // of a new world; none: random
-    std::string generator = "hills";     // of a new world; "" makes an empty one
-    std::string name = "World";          // of a new world
-    bool read_only = false; // takes no lock on the folder and keeps nothing; the world must exist
+    std::string folder;              // the world's directory
+    bool create = true;              // make a world where there is none
+    std::optional<u64> seed;         // of a new world; none: random
+    std::string generator = "hills"; // of a new world; "" makes an empty one
+    std::string name = "World";      // of a new world
+    bool read_only = false;          // takes no lock on the folder and keeps nothing; the world must exist
     std::optional<StartPlace> start;
     unsigned threads = 1;                // workers that load, generate and light; 0: inside the tick
     u32 view_distance_most = 24;         // chunks

@@ -41,7 +41,8 @@ void tell_all(ServerWorld& world, const net::Notice& notice) {
 void hear(ServerWorld& world, Session& session, net::Hello& hello) {
     if (session.joined) return drop(session, "greeted twice");
     if (hello.version != net::kProtocolVersion)
-        return drop(session, fmt::format("this server speaks protocol {}, you speak {}", net::kProtocolVersion, hello.version));
+        return drop(session,
+                    fmt::format("this server speaks protocol {}, you speak {}", net::kProtocolVersion, hello.version));
     if (!valid_name(hello.name)) return drop(session, "a name has 1 to 32 letters, digits, _ or -");
     for (const auto& other : world.sessions)
         if (other->joined && !other->gone && other->name == hello.name)
@@ -50,10 +51,12 @@ void hear(ServerWorld& world, Session& session, net::Hello& hello) {
     session.view_distance = std::min(hello.view_distance, world.options.view_distance_most);
     if (auto restored = restore_player(world, session); !restored) {
         log_error(fmt::format("player {}: {}", session.name, restored.error().message));
-        return drop(session, world.options.start ? restored.error().message : "your player cannot be read from the world");
+        return drop(session,
+                    world.options.start ? restored.error().message : "your player cannot be read from the world");
     }
     session.joined = true;
-    if (hello.content_hash != world.content_hash) send(session, net::Channel::world, net::RegistryData{world.registry_bytes});
+    if (hello.content_hash != world.content_hash)
+        send(session, net::Channel::world, net::RegistryData{world.registry_bytes});
     net::Welcome welcome;
     welcome.player = session.id;
     for (const auto& [id, dimension] : world.dimensions) {
@@ -101,7 +104,9 @@ void hear(ServerWorld&, Session& session, net::SectionAck& ack) {
     session.bytes_acknowledged = std::max(session.bytes_acknowledged, ack.bytes);
 }
 
-void hear(ServerWorld&, Session& session, net::Leave&) { session.gone = true; }
+void hear(ServerWorld&, Session& session, net::Leave&) {
+    session.gone = true;
+}
 
 void hear(ServerWorld& world, Session& session, net::Say& say) {
     if (!say.text.empty()) tell_all(world, {session.name, clean(std::move(say.text))});
@@ -157,13 +162,15 @@ void remove_gone_sessions(ServerWorld& world) {
         if (!session->gone_reason.empty()) {
             (void)session->transport->send(net::Channel::control,
                                            net::encode_message(net::Goodbye{session->gone_reason.substr(0, 256)}));
-            log_info(fmt::format("{} is dropped: {}", session->name.empty() ? "a client" : session->name, session->gone_reason));
+            log_info(fmt::format("{} is dropped: {}", session->name.empty() ? "a client" : session->name,
+                                 session->gone_reason));
         }
         session->transport->close();
     }
     if (!batch.players.empty()) {
         if (world.players_left.size() > kPlayersLeftMost && world.saves->flush()) world.players_left.clear();
-        for (const PlayerRecord& record : batch.players) world.players_left.insert_or_assign(record.name, record);
+        for (const PlayerRecord& record : batch.players)
+            world.players_left.insert_or_assign(record.name, record);
         if (!world.options.read_only) world.saves->submit(std::move(batch));
     }
     std::erase_if(world.sessions, [](const auto& s) { return s->gone; });

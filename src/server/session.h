@@ -51,7 +51,7 @@ struct Session {
     u32 unkept_sequence = 0; // accepted, not submitted to the store yet; 0 none
 
     // What it sees.
-    u32 view_distance = 8; // chunks
+    u32 view_distance = 8;         // chunks
     bool columns_complete = false; // nothing in reach of loaded_around is missing
     ColumnPos loaded_around{};
     i32 loaded_radius = 0;
@@ -64,7 +64,7 @@ struct Session {
     u64 walked_tick = 0;
     bool walk_again = true;
     u64 bytes_sent = 0, bytes_acknowledged = 0; // of sections
-    u64 ticks_silent = 0; // before its greeting
+    u64 ticks_silent = 0;                       // before its greeting
 };
 
 // Sends; a client that does not read is dropped.
@@ -86,6 +86,5 @@ void remove_gone_sessions(ServerWorld& world);
 
 // Runs the commands that time allows, by rules::step, and tells each client its body.
 void move_players(ServerWorld& world);
-
 
 } // namespace vitrail::server

@@ -14,7 +14,8 @@ constexpr u64 kUnloadTicks = 20, kTimeTicks = 100, kPlayerSaveTicks = 200;
 
 void tell_results(ServerWorld& world) {
     for (auto& session : world.sessions) {
-        for (const net::EditResult& result : session->results) send(*session, net::Channel::world, result);
+        for (const net::EditResult& result : session->results)
+            send(*session, net::Channel::world, result);
         session->results.clear();
     }
 }
@@ -23,7 +24,8 @@ void advance_time(ServerWorld& world) {
     ++world.level.time_ticks;
     if (world.tick % kPlayerSaveTicks == 0) {
         world.level_dirty = !world.sessions.empty();
-        for (auto& session : world.sessions) session->player_dirty |= session->joined;
+        for (auto& session : world.sessions)
+            session->player_dirty |= session->joined;
     }
     if (world.tick % kTimeTicks != 0) return;
     for (auto& session : world.sessions)

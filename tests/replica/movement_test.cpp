@@ -17,12 +17,14 @@ struct Walk {
         play.clients.push_back(
             std::make_unique<replica::Replica>(std::move(near_end), replica::ReplicaOptions{"ann", 3, nullptr}));
         ann = play.clients.back().get();
-        for (int i = 0; i < 60; ++i) now += 50000000, play.tick();
+        for (int i = 0; i < 60; ++i)
+            now += 50000000, play.tick();
         EXPECT_TRUE(ann->joined());
     }
     void run(const MoveCommand& input, int ticks) {
         for (int i = 0; i < ticks; ++i) {
-            for (int frame = 0; frame < 5; ++frame) ann->move(input, 0.01f);
+            for (int frame = 0; frame < 5; ++frame)
+                ann->move(input, 0.01f);
             now += 50000000;
             play.tick();
         }

@@ -36,7 +36,8 @@ TEST(Play, HillsAreTheSameOnBothSidesAndNothingHiddenIsTold) {
     Play play("hills");
     auto& ann = play.join("ann", 4);
     expect_equal_surface(play, ann);
-    // Ground truth: a state told in place of a hidden one would show as a difference above; count that some were hidden.
+    // Ground truth: a state told in place of a hidden one would show as a difference above; count that some were
+    // hidden.
     u64 hidden = 0, ore_hidden = 0;
     for (const auto& [at, chunk] : ann.dimension().chunks()) {
         const ChunkPtr truth = play.dimension().dimension.find(at);
@@ -100,10 +101,11 @@ TEST(Play, WhatIsRefusedIsTakenBack) {
     Play play;
     auto& ann = play.join("ann", 4);
     // What the client's own rules refuse is not even asked.
-    EXPECT_EQ(ann.place_block({20, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:glowstone").error().message, "too far away");
+    EXPECT_EQ(ann.place_block({20, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:glowstone").error().message,
+              "too far away");
     EXPECT_FALSE(ann.place_block({0, 63, 0}, Face::up, {0.5f, 1, 0.5f}, "minecraft:stone")); // into its own body
-    EXPECT_FALSE(ann.break_block({1, 64, 0}, Face::up, kMiddle));                           // air
-    EXPECT_FALSE(ann.break_block({1, 62, 0}, Face::up, kMiddle));                           // not known
+    EXPECT_FALSE(ann.break_block({1, 64, 0}, Face::up, kMiddle));                            // air
+    EXPECT_FALSE(ann.break_block({1, 62, 0}, Face::up, kMiddle));                            // not known
     EXPECT_FALSE(ann.place_block({1, 63, 0}, Face::up, kMiddle, "no:such_block"));
     EXPECT_EQ(ann.stats().pending_edits, 0u);
     // A block that changed meanwhile: the server knows better.
@@ -154,12 +156,15 @@ TEST(Play, ManyPredictionsUnderWaySettleToTheServersWorld) {
     net::LoopbackOptions slow{.latency_ns = 100000000, .clock = [&] { return now; }};
     auto [near_end, far_end] = net::make_loopback(slow);
     play.server->connect(std::move(far_end));
-    play.clients.push_back(std::make_unique<replica::Replica>(std::move(near_end), replica::ReplicaOptions{"ann", 3, nullptr}));
+    play.clients.push_back(
+        std::make_unique<replica::Replica>(std::move(near_end), replica::ReplicaOptions{"ann", 3, nullptr}));
     auto& ann = *play.clients.back();
     auto tick = [&] { now += 50000000, play.tick(); };
-    for (int i = 0; i < 40; ++i) tick();
+    for (int i = 0; i < 40; ++i)
+        tick();
     play.settle();
-    for (int i = 0; i < 10; ++i) tick();
+    for (int i = 0; i < 10; ++i)
+        tick();
     ASSERT_TRUE(ann.joined());
     Rng rng(4);
     u32 sent = 0;
@@ -175,7 +180,8 @@ TEST(Play, ManyPredictionsUnderWaySettleToTheServersWorld) {
         if (rng.below(2)) tick();
     }
     EXPECT_GT(sent, 10u);
-    for (int i = 0; i < 20; ++i) tick();
+    for (int i = 0; i < 20; ++i)
+        tick();
     EXPECT_EQ(ann.stats().pending_edits, 0u);
     EXPECT_FALSE(ann.lost()) << ann.lost_reason();
     expect_equal_surface(play, ann);
@@ -186,7 +192,8 @@ TEST(Play, ACaveThatNothingOpensIsNotToldUntilSomeoneDigsIntoIt) {
         EditBatch cave;
         for (i32 y = 53; y <= 58; ++y)
             for (i32 z = 1; z < 6; ++z)
-                for (i32 x = 1; x < 6; ++x) cave.edits.push_back({{x, y - 16, z}, StateId::air});
+                for (i32 x = 1; x < 6; ++x)
+                    cave.edits.push_back({{x, y - 16, z}, StateId::air});
         apply(d, cave);
     });
     auto& ann = play.join("ann");
@@ -194,7 +201,8 @@ TEST(Play, ACaveThatNothingOpensIsNotToldUntilSomeoneDigsIntoIt) {
     EXPECT_EQ(seen(ann, {3, 62, 3}), "vitrail:hidden");
     // Someone digs a shaft from below to just under the ground.
     EditBatch shaft;
-    for (i32 y = 42; y <= 62; ++y) shaft.edits.push_back({{3, y, 3}, StateId::air});
+    for (i32 y = 42; y <= 62; ++y)
+        shaft.edits.push_back({{3, y, 3}, StateId::air});
     server::edit_world(play.world(), play.dimension(), shaft);
     play.tick(3);
     EXPECT_FALSE(ann.has_section({0, 2, 0}));
@@ -242,7 +250,8 @@ TEST(Play, EditsAndPlayersAreStillThereAfterARestart) {
     auto hash = [&](u64& h) {
         for (i32 y = -4; y < 20; ++y)
             if (const ChunkPtr c = play.dimension().dimension.find({chunk_of(at).x, y, chunk_of(at).z}))
-                for (u32 i = 0; i < 4096 && !c->blocks.uniform(); ++i) h = hash_combine(h, u64(c->blocks.get(LocalPos(i))));
+                for (u32 i = 0; i < 4096 && !c->blocks.uniform(); ++i)
+                    h = hash_combine(h, u64(c->blocks.get(LocalPos(i))));
     };
     hash(before);
     play.restart();

@@ -20,13 +20,16 @@ TEST(ViewLong, ServerAndReplicaOfTwelveChunksStayBelowHalfAGigabyte) {
     const u64 after = resident_memory_bytes();
     u64 replica_bytes = 0;
     for (const auto& [at, chunk] : ann.dimension().chunks())
-        replica_bytes += sizeof(Chunk) + chunk->blocks.memory_bytes() + (chunk->light ? chunk->light->memory_bytes() : 0);
+        replica_bytes +=
+            sizeof(Chunk) + chunk->blocks.memory_bytes() + (chunk->light ? chunk->light->memory_bytes() : 0);
     const auto stats = play.server->stats();
-    fmt::print("{:.1f} s to load and send; resident {:.0f} MB more than before; server: {} columns, {} chunks, {:.1f} MB of "
-               "blocks and light; replica: {} sections, at most {:.1f} MB; {} sections in {:.1f} MB sent; slowest tick {:.0f} ms\n",
-               seconds_since(start), double(after - before) / 1e6, stats.columns, stats.chunks,
-               double(stats.chunk_memory_bytes) / 1e6, ann.dimension().chunks().size(), double(replica_bytes) / 1e6,
-               stats.sections_sent, double(stats.bytes_sent) / 1e6, slowest);
+    fmt::print(
+        "{:.1f} s to load and send; resident {:.0f} MB more than before; server: {} columns, {} chunks, {:.1f} MB of "
+        "blocks and light; replica: {} sections, at most {:.1f} MB; {} sections in {:.1f} MB sent; slowest tick {:.0f} "
+        "ms\n",
+        seconds_since(start), double(after - before) / 1e6, stats.columns, stats.chunks,
+        double(stats.chunk_memory_bytes) / 1e6, ann.dimension().chunks().size(), double(replica_bytes) / 1e6,
+        stats.sections_sent, double(stats.bytes_sent) / 1e6, slowest);
     EXPECT_LT(after - before, 400u << 20);
     expect_equal_surface(play, ann);
     // Walking on: memory stays bounded.

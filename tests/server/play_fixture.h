@@ -81,7 +81,8 @@ public:
     void tick(int count = 1) {
         for (; count > 0; --count) {
             server->tick_once();
-            for (auto& client : clients) client->poll();
+            for (auto& client : clients)
+                client->poll();
         }
     }
     // Until everything that is to be loaded and sent has been.
@@ -89,7 +90,8 @@ public:
         for (int i = 0; i < 5000; ++i) {
             tick();
             bool busy = false;
-            for (auto& [id, dimension] : world().dimensions) busy |= dimension.loading > 0;
+            for (auto& [id, dimension] : world().dimensions)
+                busy |= dimension.loading > 0;
             for (auto& session : world().sessions)
                 busy |= !session->wanted.empty() || !session->columns_complete ||
                         session->walked_opened != world().dimensions.at(session->dimension()).opened;
@@ -116,9 +118,7 @@ public:
         throw std::runtime_error("no session of " + name);
     }
     StateId state(const std::string& text) { return *world().states().intern_with_defaults(*parse_block_state(text)); }
-    std::string block(BlockPos at) {
-        return world().states().info(dimension().dimension.state_at(at)).state.name;
-    }
+    std::string block(BlockPos at) { return world().states().info(dimension().dimension.state_at(at)).state.name; }
     const std::filesystem::path& folder() const { return folder_; }
 
     std::unique_ptr<server::Server> server;
@@ -142,7 +142,8 @@ private:
                 }
         if (carve) carve(dimension);
         SaveBatch batch;
-        for (const auto& [at, chunk] : dimension.chunks()) batch.chunks.push_back({DimensionId::overworld, at, chunk});
+        for (const auto& [at, chunk] : dimension.chunks())
+            batch.chunks.push_back({DimensionId::overworld, at, chunk});
         for (i32 z = -radius; z <= radius; ++z)
             for (i32 x = -radius; x <= radius; ++x) {
                 ColumnRecord column;

@@ -85,7 +85,8 @@ TEST(Session, BadMessagesEndOnlyTheirOwnSession) {
         if (rng.below(4)) client.greet();
         for (u32 n = rng.below(6); n > 0; --n) {
             Bytes bytes(rng.below(60));
-            for (u8& b : bytes) b = u8(rng.next());
+            for (u8& b : bytes)
+                b = u8(rng.next());
             if (!bytes.empty() && rng.below(2)) bytes[0] = u8(1 + rng.below(9));
             (void)client.transport->send(net::Channel(rng.below(3)), std::move(bytes));
         }
@@ -103,7 +104,10 @@ TEST(Session, RandomRequestsFromAGuestDoNoHarm) {
     Play play;
     Rng rng(31);
     auto coordinate = [&]() -> i32 {
-        return rng.below(4) ? i32(rng.below(40)) - 20 : rng.below(2) ? i32(rng.next()) : rng.below(2) ? 0x7fffffff : i32(0x80000000);
+        return rng.below(4)   ? i32(rng.below(40)) - 20
+               : rng.below(2) ? i32(rng.next())
+               : rng.below(2) ? 0x7fffffff
+                              : i32(0x80000000);
     };
     for (int round = 0; round < 100; ++round) {
         RawClient client(play);
@@ -116,7 +120,8 @@ TEST(Session, RandomRequestsFromAGuestDoNoHarm) {
             request.at = {coordinate(), rng.below(3) ? 60 + i32(rng.below(8)) : coordinate(), coordinate()};
             request.face = u8(rng.below(6));
             request.hit_x = rng.unit() * 1e9f, request.hit_y = -rng.unit(), request.hit_z = rng.unit();
-            const char* names[] = {"minecraft:stone", "minecraft:air", "vitrail:hidden", "", "[[[", "minecraft:oak_door", "x:y[z=1]"};
+            const char* names[] = {"minecraft:stone",    "minecraft:air", "vitrail:hidden", "", "[[[",
+                                   "minecraft:oak_door", "x:y[z=1]"};
             request.held = names[rng.below(7)];
             request.yaw = rng.unit() * 1e30f, request.pitch = -1e30f;
             client.say(request);
@@ -188,9 +193,9 @@ TEST(Session, RequestsAreJudged) {
         client.results.clear();
         client.tick();
         EXPECT_EQ(client.results.size(), 1u);
-        return client.results.empty() ? "no answer"
+        return client.results.empty()                                    ? "no answer"
                : client.results[0].outcome == net::EditOutcome::accepted ? "accepted"
-                                                                        : client.results[0].reason;
+                                                                         : client.results[0].reason;
     };
     const auto dig = net::EditKind::break_block, build = net::EditKind::place_block;
     EXPECT_EQ(ask(dig, {30, 63, 0}), "too far away");
@@ -200,7 +205,7 @@ TEST(Session, RequestsAreJudged) {
     EXPECT_EQ(ask(dig, {1, 63, 0}, "", "minecraft:dirt"), "the block has changed");
     EXPECT_NE(ask(dig, {1, 63, 1}).find("cannot be broken"), std::string::npos);
     EXPECT_EQ(ask(dig, {1, 63, 0}, "", "minecraft:stone"), "accepted");
-    EXPECT_NE(ask(dig, {1, 63, 0}), "accepted"); // air by now
+    EXPECT_NE(ask(dig, {1, 63, 0}), "accepted");                      // air by now
     EXPECT_NE(ask(build, {0, 63, 0}, "minecraft:stone"), "accepted"); // into the player
     EXPECT_NE(ask(build, {2, 63, 0}, "vitrail:hidden"), "accepted");
     EXPECT_NE(ask(build, {2, 63, 0}, "minecraft:air"), "accepted");
@@ -214,7 +219,8 @@ TEST(Session, AClientThatDoesNotReadIsDropped) {
     auto [near_end, far_end] = net::make_loopback({.queue_bytes_most = 200000, .clock = {}});
     play.server->connect(std::move(far_end));
     (void)near_end->send(net::Channel::control, net::encode_message(net::Hello{net::kProtocolVersion, "deaf", 4, 0}));
-    for (int i = 0; i < 400 && near_end->open(); ++i) play.server->tick_once();
+    for (int i = 0; i < 400 && near_end->open(); ++i)
+        play.server->tick_once();
     EXPECT_FALSE(near_end->open());
     EXPECT_TRUE(play.world().sessions.empty());
 }
@@ -225,7 +231,8 @@ TEST(Session, WhatWasToldToBeKeptSurvivesAKilledProcess) {
         int pipe_ends[2];
         ASSERT_EQ(::pipe(pipe_ends), 0);
         const std::filesystem::path folder =
-            std::filesystem::temp_directory_path() / ("vitrail-kill-" + std::to_string(::getpid()) + "-" + std::to_string(round));
+            std::filesystem::temp_directory_path() /
+            ("vitrail-kill-" + std::to_string(::getpid()) + "-" + std::to_string(round));
         std::filesystem::remove_all(folder);
         const pid_t child = ::fork();
         ASSERT_GE(child, 0);
@@ -258,7 +265,8 @@ TEST(Session, WhatWasToldToBeKeptSurvivesAKilledProcess) {
                     if (answer.outcome != net::EditOutcome::kept) continue;
                     const i32 place[3] = {at.x, at.y, at.z};
                     if (::write(pipe_ends[1], place, sizeof place) != sizeof place) ::_exit(5);
-                    for (;;) (*server)->tick_once(); // until killed
+                    for (;;)
+                        (*server)->tick_once(); // until killed
                 }
                 if (sequence) ::usleep(1000);
             }
@@ -286,7 +294,8 @@ TEST(Session, WhatWasToldToBeKeptSurvivesAKilledProcess) {
 
 // The real thing: its own thread and workers, in real time.
 TEST(Session, TheServersThreadServesSeveralClientsAtOnce) {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("vitrail-threads-" + std::to_string(::getpid()));
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("vitrail-threads-" + std::to_string(::getpid()));
     std::filesystem::remove_all(folder);
     server::ServerOptions options;
     options.folder = folder.string(), options.seed = 3, options.threads = 2;
@@ -306,7 +315,8 @@ TEST(Session, TheServersThreadServesSeveralClientsAtOnce) {
             const BlockPos ground{feet.x, feet.y - 1, feet.z};
             if (!sent && client.body().on_ground && client.has_section(chunk_of(ground)))
                 sent = client.break_block(ground, Face::up, {0.5f, 1, 0.5f}).has_value();
-            for (const auto& answer : client.take_answers()) kept |= answer.outcome != net::EditOutcome::accepted;
+            for (const auto& answer : client.take_answers())
+                kept |= answer.outcome != net::EditOutcome::accepted;
         }
         EXPECT_TRUE(sent) << client.lost_reason();
         EXPECT_TRUE(kept) << client.lost_reason();
