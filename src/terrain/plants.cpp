@@ -122,29 +122,36 @@ void place_plants(ColumnCanvas& c) {
 }
 
 void lay_snow(ColumnCanvas& c) {
+    const auto lay_on = [&](i32 x, i32 y, i32 z) { // y: of the block under the snow
+        switch (c.get(x, y, z)) {
+        case air:
+        case water:
+        case ice:
+        case packed_ice:
+        case lava:
+        case fern:
+        case short_grass:
+        case snow_block:
+        case spruce_log:
+            return;
+        case grass_block:
+            c.put(x, y, z, snowy_grass_block);
+            break;
+        default:
+            break;
+        }
+        c.put(x, y + 1, z, snow);
+    };
     for (i32 z = 0; z < 16; ++z)
         for (i32 x = 0; x < 16; ++x) {
-            if (!c.land_at(x, z).cold) continue;
+            const ColumnCanvas::Land& l = c.land_at(x, z);
+            if (!l.cold) continue;
             i32 y = std::min(c.top, kTerrainMaxY - 1);
             while (y > kTerrainMinY && c.get(x, y - 1, z) == air)
                 --y;
-            const TerrainBlock under = c.get(x, y - 1, z);
-            switch (under) {
-            case water:
-            case ice:
-            case packed_ice:
-            case lava:
-            case fern:
-            case short_grass:
-            case snow_block:
-                continue;
-            case grass_block:
-                c.put(x, y - 1, z, snowy_grass_block);
-                break;
-            default:
-                break;
-            }
-            c.put(x, y, z, snow);
+            lay_on(x, y - 1, z);
+            // and under trees, whose crowns let much through
+            if (y > l.ground_y && c.get(x, l.ground_y, z) == air) lay_on(x, l.ground_y - 1, z);
         }
 }
 

@@ -225,7 +225,10 @@ void place_trees(ColumnCanvas& c) {
                 draw_spruce(brush);
                 break;
             case Growth::cactus:
-                draw_cactus(brush);
+                // nothing may stand beside it
+                if (std::max({c.land_at(x - 1, z).ground_y, c.land_at(x + 1, z).ground_y, c.land_at(x, z - 1).ground_y,
+                              c.land_at(x, z + 1).ground_y}) <= l.ground_y)
+                    draw_cactus(brush);
                 break;
             case Growth::boulder:
                 draw_boulder(brush);
