@@ -112,6 +112,8 @@ double Tag::number_at(std::size_t i) const {
 
 namespace {
 
+static_assert(sizeof(detail::Node) == 28);
+
 // An open list or compound.
 struct Frame {
     u32 node, last_child;

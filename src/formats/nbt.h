@@ -35,7 +35,7 @@ enum class Type : u8 {
 };
 inline constexpr u8 kTypeCount = 13;
 inline constexpr std::size_t kMaxDepth = 512;      // Minecraft's own bound
-inline constexpr std::size_t kMaxNodes = 1u << 21; // 64 MiB of arena
+inline constexpr std::size_t kMaxNodes = 1u << 21; // 56 MiB of arena
 inline constexpr std::size_t kMaxBytes = 1u << 30;
 
 namespace detail {

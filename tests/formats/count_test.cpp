@@ -25,7 +25,9 @@ void expect_equal(const fs::path& source, const nlohmann::json& oracle, bool sec
     EXPECT_EQ(got.read.chunks, oracle["chunks"].get<u64>()) << source;
     EXPECT_EQ(got.read.chunks_unreadable, 0u);
     EXPECT_EQ(got.voxels, oracle["voxels"].get<u64>()) << source;
-    if (sections) EXPECT_EQ(got.sections, oracle["sections_decoded"].get<u64>()) << source;
+    if (sections) {
+        EXPECT_EQ(got.sections, oracle["sections_decoded"].get<u64>()) << source;
+    }
     const auto want = oracle["counts"].get<std::map<std::string, u64>>();
     EXPECT_EQ(got.counts.size(), want.size()) << source;
     int differences = 0;

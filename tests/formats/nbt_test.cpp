@@ -90,7 +90,9 @@ TEST(Nbt, SavesWhatCameBeforeTheCut) {
         EXPECT_FALSE(r.complete());
         EXPECT_GE(r.size(), most);
         most = r.size();
-        if (cut > 60) EXPECT_EQ(r["i"].integer(), 70000);
+        if (cut > 60) {
+            EXPECT_EQ(r["i"].integer(), 70000);
+        }
         for (const Tag tag : r) {
             EXPECT_LE(tag.payload().data() + tag.payload().size(), part.data() + part.size());
             for (const Tag child : tag)

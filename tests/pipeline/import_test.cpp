@@ -172,8 +172,9 @@ TEST(Import, SkipsDamageAndGoesOn) {
         EXPECT_GT(report->columns, 0u) << entry.path();
         EXPECT_FALSE(import_summary(*report).empty());
         auto stored = stored_counts(entry.path());
-        if (!stored.empty() && stored.begin()->first.starts_with("minecraft:"))
+        if (!stored.empty() && stored.begin()->first.starts_with("minecraft:")) {
             EXPECT_EQ(sink.count(), stored) << entry.path();
+        }
     }
 }
 
