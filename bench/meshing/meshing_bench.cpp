@@ -82,6 +82,10 @@ StateId checkered_state(Rng&, LocalPos p, test::MeshWorld& w) {
     return (p.x() + p.y() + p.z()) % 2 ? w("stone") : StateId::air;
 }
 
+StateId flat_state(Rng&, LocalPos p, test::MeshWorld& w) {
+    return p.y() < 8 ? w("stone") : StateId::air;
+}
+
 // Time a quad: the same run, divided by quads.
 void run_by_quad(bench::Context& c, const std::vector<MeshInput>& inputs, u64 quads) {
     MeshScratch scratch;
@@ -153,6 +157,11 @@ void register_meshing_benches(vitrail::bench::Suite& suite) {
         const Cubes cubes(random_state);
         run_by_quad(c, cubes.inputs, cubes.quads());
     });
+    suite.add("mesh.flat", "us", "a chunk half full of stone below a level surface; geometry only",
+              [](bench::Context& c) {
+                  const Cubes cubes(flat_state);
+                  run(c, cubes.inputs);
+              });
     suite.add("mesh.checkerboard", "us", "a chunk of alternating air and stone: 12288 quads; geometry only",
               [](bench::Context& c) {
                   const Cubes cubes(checkered_state);

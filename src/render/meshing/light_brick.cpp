@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace vitrail::render {
@@ -54,7 +56,7 @@ bool uniform_light(const MeshInput& input, Light& value) {
 }
 
 // Light and closed bits of three chunks that lie along x, rows of the window.
-void read_rows(const MeshInput& input, i32 dy, i32 dz, Window& w) {
+void read_rows(const MeshInput& input, i32 dy, i32 dz, const MeshKernels& kernels, Window& w) {
     const Part py = part_of(dy), pz = part_of(dz);
     struct Source {
         const Light* cells = nullptr;
@@ -87,43 +89,55 @@ void read_rows(const MeshInput& input, i32 dy, i32 dz, Window& w) {
         else
             s.closed = any ? 0xffff : 0;
     }
-    const auto closed_row = [&](const Source& s, u32 row) -> u32 {
-        if (!s.blocks) return s.closed;
+    // Closed bits of the rows of one slice, first row `row`.
+    const u32 count = u32(pz.to - pz.from);
+    const auto closed_rows = [&](const Source& s, u32 row, u16* bits) {
+        if (!s.blocks) {
+            std::fill_n(bits, count, s.closed);
+            return;
+        }
         const u8* table = w.table.data() + s.table;
-        u16 first = 0, second = 0;
         if (s.blocks->bits() <= 8) {
-            mesh_kernels().classify_rows(s.blocks->words().data(), s.blocks->bits(), table, row, 1, 1, &first, &second);
-            return first;
+            u16 unused[16];
+            kernels.classify_rows(s.blocks->words().data(), s.blocks->bits(), table, row, 1, count, bits, unused);
+            return;
         }
         const u16* cells = reinterpret_cast<const u16*>(s.blocks->words().data()) + row * 16;
-        for (u32 x = 0; x < 16; ++x)
-            first |= u16(table[cells[x]] << x);
-        return first;
-    };
-    for (i32 y = py.from; y < py.to; ++y)
-        for (i32 z = pz.from; z < pz.to; ++z) {
-            const u32 row = u32(y * 16 + z);
-            alignas(64) u16 light[kLanes] = {};
-            u32 closed = ~((1u << kRows) - 1);
-            for (i32 dx = -1; dx <= 1; ++dx) {
-                const Source& s = sources[dx + 1];
-                const Part px = part_of(dx);
-                u16* to = light + px.from + px.shift;
-                if (s.cells)
-                    std::memcpy(to, s.cells + row * 16 + u32(px.from), std::size_t(px.to - px.from) * sizeof(u16));
-                else
-                    std::fill_n(to, px.to - px.from, s.fill);
-                const u32 bits = closed_row(s, row) >> px.from & ((1u << (px.to - px.from)) - 1);
-                closed |= bits << (px.from + px.shift);
-            }
-            const i32 wy = y + py.shift, wz = z + pz.shift;
-            w.closed[wy + 1][wz + 1] = closed;
-            mesh_kernels().split_light_row(light, closed, w.even[wy][wz], w.odd[wy][wz]);
+        for (u32 i = 0; i < count; ++i) {
+            u32 row_bits = 0;
+            for (u32 x = 0; x < 16; ++x)
+                row_bits |= u32(table[cells[i * 16 + x]]) << x;
+            bits[i] = u16(row_bits);
         }
+    };
+    constexpr u32 kSideBits = (1u << kReach) - 1;
+    for (i32 y = py.from; y < py.to; ++y) {
+        u16 bits[3][16];
+        for (u32 i = 0; i < 3; ++i)
+            closed_rows(sources[i], u32(y * 16 + pz.from), bits[i]);
+        for (u32 i = 0; i < count; ++i) {
+            const u32 row = u32(y * 16 + pz.from) + i;
+            alignas(64) u16 light[kLanes] = {};
+            const auto put = [&](const Source& s, u32 from, u32 to, auto cells) {
+                if (s.cells)
+                    std::memcpy(light + to, s.cells + row * 16 + from, sizeof(u16) * cells());
+                else
+                    std::fill_n(light + to, cells(), s.fill);
+            };
+            put(sources[0], 16 - kReach, 0, std::integral_constant<u32, kReach>());
+            put(sources[1], 0, kReach, std::integral_constant<u32, 16>());
+            put(sources[2], 0, kReach + 16, std::integral_constant<u32, kReach>());
+            const u32 closed = ~((1u << kRows) - 1) | u32(bits[0][i] >> (16 - kReach)) | u32(bits[1][i]) << kReach |
+                               (bits[2][i] & kSideBits) << (kReach + 16);
+            const i32 wy = y + py.shift, wz = pz.from + i32(i) + pz.shift;
+            w.closed[wy + 1][wz + 1] = closed;
+            kernels.split_light_row(light, closed, w.even[wy][wz], w.odd[wy][wz]);
+        }
+    }
 }
 
 // Closed cells beside cells with light get theirs. `margin`: rows left out at the window's edge.
-void fill_closed(Window& w, i32 margin) {
+void fill_closed(Window& w, i32 margin, const MeshKernels& kernels) {
     const auto lit_bits = [&](i32 y, i32 z) { return ~w.closed[y + 1][z + 1]; };
     constexpr u32 step_z = sizeof w.even[0][0], step_y = sizeof w.even[0];
     for (i32 y = margin; y < kRows - margin; ++y)
@@ -134,10 +148,10 @@ void fill_closed(Window& w, i32 margin) {
             const u32 wanted = ~here & around & kInner;
             w.wanted[y][z] = wanted;
             if (!wanted) continue;
-            mesh_kernels().fill_light_row(reinterpret_cast<const u8*>(w.even[y][z]), step_z, step_y, wanted,
-                                          reinterpret_cast<u8*>(w.even_filled[y][z]));
-            mesh_kernels().fill_light_row(reinterpret_cast<const u8*>(w.odd[y][z]), step_z, step_y, wanted,
-                                          reinterpret_cast<u8*>(w.odd_filled[y][z]));
+            kernels.fill_light_row(reinterpret_cast<const u8*>(w.even[y][z]), step_z, step_y, wanted,
+                                   reinterpret_cast<u8*>(w.even_filled[y][z]));
+            kernels.fill_light_row(reinterpret_cast<const u8*>(w.odd[y][z]), step_z, step_y, wanted,
+                                   reinterpret_cast<u8*>(w.odd_filled[y][z]));
         }
     for (i32 y = margin; y < kRows - margin; ++y)
         for (i32 z = margin; z < kRows - margin; ++z) {
@@ -155,16 +169,17 @@ void build_light_brick(const MeshInput& input, LightBrick& out) {
     if (out.uniform) return;
     thread_local const std::unique_ptr<Window> window = std::make_unique<Window>();
     Window& w = *window;
+    const MeshKernels& kernels = mesh_kernels();
     for (i32 dy = -1; dy <= 1; ++dy)
         for (i32 dz = -1; dz <= 1; ++dz)
-            read_rows(input, dy, dz, w);
-    fill_closed(w, 1);
-    fill_closed(w, 2);
+            read_rows(input, dy, dz, kernels, w);
+    fill_closed(w, 1, kernels);
+    fill_closed(w, 2, kernels);
     for (i32 y = -1; y <= 16; ++y)
         for (i32 z = -1; z <= 16; ++z)
-            mesh_kernels().join_light_row(w.even[y + kReach][z + kReach] + kReach - 1,
-                                          w.odd[y + kReach][z + kReach] + kReach - 1,
-                                          out.cells.data() + LightBrick::index(-1, y, z));
+            kernels.join_light_row(w.even[y + kReach][z + kReach] + kReach - 1,
+                                   w.odd[y + kReach][z + kReach] + kReach - 1,
+                                   out.cells.data() + LightBrick::index(-1, y, z));
     out.uniform = std::all_of(out.cells.begin(), out.cells.end(), [&](u16 c) { return c == out.cells[0]; });
     if (out.uniform) out.value = Light(out.cells[0]);
 }

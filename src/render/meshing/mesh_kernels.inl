@@ -5,6 +5,9 @@
 #include <bit>
 #include <cstring>
 #if defined(__x86_64__)
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized" // false alarms inside g++ 12's own intrinsics
+#endif
 #include <immintrin.h>
 #endif
 

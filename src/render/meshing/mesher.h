@@ -2,8 +2,9 @@
 //
 // Cubes are merged greedily over bit masks (one 16-bit row a mask, rows compared by look); a merged quad draws exactly
 // what its unit faces would: faces merge only with equal look and equal ambient occlusion, and along an axis only where
-// the occlusion does not change along it. Which diagonal splits a quad follows from its four occlusion values in the
-// vertex shader: 0-2 where ao[0] + ao[2] > ao[1] + ao[3], else 1-3 (with values growing towards open).
+// the occlusion does not change along it (faces behind leaves, which occlude but hide nothing, stay single). Which
+// diagonal splits a quad follows from its four occlusion values in the vertex shader: 0-2 where ao[0] + ao[2] > ao[1] +
+// ao[3], else 1-3 (with values growing towards open).
 //
 // Leaves draw no faces between each other, whatever their kind: a crown is a shell with half the quads, and its holes
 // show the inner side of the far leaves where the cutout pass is drawn two-sided. Glass and ice leave out faces between
@@ -15,7 +16,8 @@
 // sees.
 //
 // Liquids: a level surface is a merged cube quad (face up, kQuadLiquid) that the vertex shader lowers by kLiquidDrop;
-// faces of full liquid cells are cube quads too; sloping surfaces and lowered sides are model quads.
+// faces of full liquid cells are cube quads too; sloping surfaces and lowered sides are model quads that meshing may
+// add to the table: upload BlockModels::model_quads from the last count on before drawing a new mesh.
 #pragma once
 
 #include "render/meshing/quad.h"
