@@ -368,7 +368,7 @@ TEST_F(Edited, UnloadingAndComingBackIsExact) {
             std::vector<Edit> edits; // holes, walls and lamps by the borders
             for (u32 i = 0; i < 300; ++i)
                 edits.push_back({{12 + i32(rng.below(8)), i32(rng.below(60)) - 30, 12 + i32(rng.below(8))},
-                                 world().ids[rng.below(3) ? World::air : rng.below(World::count)]});
+                                 world().ids[rng.below(3) ? 0u : rng.below(World::count)]});
             edit(edits);
             std::vector<ChunkPos> back;
             for (const auto& [at, chunk] : away) {
