@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "client/frame_builder.h"
+#include "gfx/context.h"
 
 #include <algorithm>
 #include <chrono>
@@ -42,6 +43,8 @@ static Result<> open_window(GameState& state) {
     window.vsync = state.settings.vsync;
     VX_TRY_ASSIGN(state.window, platform::Window::create(window));
     if (state.settings.fullscreen) state.window->set_fullscreen(true);
+    // Until the player says otherwise, a machine without a graphics card draws plainly.
+    if (const auto info = gfx::context_info(); info && info->software && !state.settings_chosen) state.settings.high_quality = false;
     VX_TRY_ASSIGN(state.renderer, render::Renderer::create({.quality = state.settings.high_quality ? render::Quality::high
                                                                                                    : render::Quality::low}));
     VX_TRY_ASSIGN(state.ui, render::UiLayer::create(*state.window));
@@ -185,6 +188,8 @@ Result<> run_game(const GameOptions& options, std::shared_ptr<const BlockRegistr
     GameState state;
     state.options = options;
     if (!options.settings_file.empty()) {
+        std::error_code ignored;
+        state.settings_chosen = std::filesystem::exists(options.settings_file, ignored);
         // A broken settings file must not keep anybody from playing, nor be overwritten unseen: the line says what is wrong.
         if (auto settings = load_settings(options.settings_file)) state.settings = *settings;
         else log_warning(settings.error().message);

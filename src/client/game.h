@@ -45,6 +45,7 @@ struct Notice {
 struct GameState {
     GameOptions options;
     Settings settings;
+    bool settings_chosen = false; // a settings file was there
     std::unique_ptr<platform::Window> window;
     std::unique_ptr<render::Renderer> renderer;
     std::unique_ptr<render::UiLayer> ui;
@@ -58,6 +59,7 @@ struct GameState {
     bool fly_wanted = false; // toggled in this frame
     double last_space_seconds = -1;
     bool break_held = false, place_held = false;
+    bool break_clicked = false, place_clicked = false; // since the last frame
     double next_break_seconds = 0, next_place_seconds = 0;
     bool screenshot_wanted = false, pick_wanted = false;
 

@@ -88,11 +88,11 @@ void handle_events(GameState& state, const std::vector<platform::InputEvent>& ev
             if (!state.window->mouse_captured()) break;
             if (event.button == platform::MouseButton::left) {
                 state.break_held = event.down;
-                state.next_break_seconds = 0;
+                state.break_clicked |= event.down;
             }
             if (event.button == platform::MouseButton::right) {
                 state.place_held = event.down;
-                state.next_place_seconds = 0;
+                state.place_clicked |= event.down;
             }
             if (event.button == platform::MouseButton::middle && event.down) state.pick_wanted = true;
             break;
@@ -135,16 +135,19 @@ static void pick_to_hotbar(GameState& state) {
 }
 
 void act_on_world(GameState& state) {
+    // A click counts even where press and release fell into one frame.
     const bool pick = std::exchange(state.pick_wanted, false);
+    const bool break_now = std::exchange(state.break_clicked, false) || (state.break_held && state.seconds >= state.next_break_seconds);
+    const bool place_now = std::exchange(state.place_clicked, false) || (state.place_held && state.seconds >= state.next_place_seconds);
     if (!state.hit || state.paused || state.block_list_open) return;
     replica::Replica& replica = state.game->replica();
     const PickHit& hit = *state.hit;
     if (pick) pick_to_hotbar(state);
-    if (state.break_held && state.seconds >= state.next_break_seconds) {
+    if (break_now) {
         state.next_break_seconds = state.seconds + kEditRepeat;
         if (const auto sent = replica.break_block(hit.block, hit.face, hit.point); !sent) say(state, sent.error().message);
     }
-    if (state.place_held && state.seconds >= state.next_place_seconds && state.hotbar.selected < state.hotbar.names.size()) {
+    if (place_now && state.hotbar.selected < state.hotbar.names.size()) {
         state.next_place_seconds = state.seconds + kEditRepeat;
         const auto sent = replica.place_block(hit.block, hit.face, hit.point, state.hotbar.names[state.hotbar.selected]);
         (void)sent; // no room, a body in the way: nothing happens, as in the world

@@ -48,7 +48,7 @@ void draw_hotbar(const HotbarView& hotbar, float ui_scale) {
         const bool chosen = i == hotbar.selected;
         list->AddRectFilled({x, y0}, {x + cell, y0 + cell}, IM_COL32(12, 14, 18, chosen ? 190 : 130), 5 * ui_scale);
         if (i < hotbar.icons.size() && hotbar.icons[i])
-            list->AddImage(ImTextureID(std::uintptr_t(hotbar.icons[i])), {x + 3, y0 + 3}, {x + cell - 3, y0 + cell - 3});
+            list->AddImage(ImTextureID(std::uintptr_t(hotbar.icons[i])), {x + 3, y0 + 3}, {x + cell - 3, y0 + cell - 3}, {0, 1}, {1, 0}); // OpenGL rows run upwards
         list->AddRect({x, y0}, {x + cell, y0 + cell}, chosen ? IM_COL32(255, 240, 200, 255) : IM_COL32(255, 255, 255, 60),
                       5 * ui_scale, 0, chosen ? 2.5f * ui_scale : 1.0f);
     }
