@@ -38,6 +38,17 @@ Buffer make_buffer(u64 bytes, u32 flags, const void* data) {
     return buffer;
 }
 
+void grow_buffer(Buffer& buffer, u64 bytes, u64 keep) {
+    Buffer bigger = make_buffer(bytes, GL_DYNAMIC_STORAGE_BIT);
+    if (keep > 0) {
+        glCopyNamedBufferSubData(buffer.name(), bigger.name(), 0, 0, GLsizeiptr(keep));
+        // NVIDIA's driver (seen on an H200) lets the next glNamedBufferSubData overtake this copy, which then undoes
+        // it.
+        glFinish();
+    }
+    buffer = std::move(bigger);
+}
+
 u32 bytes_per_texel(u32 format) {
     switch (format) {
     case GL_R8:

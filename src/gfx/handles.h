@@ -59,6 +59,10 @@ struct Buffer : Handle<destroy_buffer> {
 // flags: GL_DYNAMIC_STORAGE_BIT and the like; data may be null.
 Buffer make_buffer(u64 bytes, u32 flags, const void* data = nullptr);
 
+// A larger buffer (GL_DYNAMIC_STORAGE_BIT) that begins with the first `keep` bytes of this one, in its place. Waits for
+// the GPU.
+void grow_buffer(Buffer& buffer, u64 bytes, u64 keep);
+
 struct Texture : Handle<destroy_texture> {
     using Handle::Handle;
     u32 target = 0, format = 0; // GL_TEXTURE_2D..., sized internal format

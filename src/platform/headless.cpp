@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <epoxy/egl.h>
+#include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <vector>
 
@@ -24,11 +25,9 @@ bool has_word(const char* list, const char* word) {
 }
 
 // Hardware devices first, then Mesa without any device (software), then software devices, then the default display.
-std::vector<Candidate> candidates() {
+std::vector<Candidate> candidates(bool only_software) {
     std::vector<Candidate> found, software;
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    const char* wanted = std::getenv("VITRAIL_GL");
-    const bool only_software = wanted && std::strcmp(wanted, "software") == 0;
     if (has_word(client, "EGL_EXT_device_enumeration") && has_word(client, "EGL_EXT_platform_device")) {
         EGLDeviceEXT devices[32];
         EGLint count = 0;
@@ -51,8 +50,13 @@ std::vector<Candidate> candidates() {
     return found;
 }
 
+bool draws_in_software() {
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe") || std::strstr(name, "swrast"));
+}
+
 // A context without surfaces; null where this display has none.
-EGLContext make_context(EGLDisplay display, bool debug) {
+EGLContext make_context(EGLDisplay display, bool debug, bool only_software) {
     EGLint major = 0, minor = 0;
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) return EGL_NO_CONTEXT;
     const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
@@ -78,6 +82,12 @@ EGLContext make_context(EGLDisplay display, bool debug) {
             eglDestroyContext(display, context);
             context = EGL_NO_CONTEXT;
         }
+        // The surfaceless platform may belong to a hardware driver.
+        if (context != EGL_NO_CONTEXT && only_software && !draws_in_software()) {
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+            eglDestroyContext(display, context);
+            return EGL_NO_CONTEXT;
+        }
     }
     if (context == EGL_NO_CONTEXT) eglTerminate(display);
     return context;
@@ -86,9 +96,11 @@ EGLContext make_context(EGLDisplay display, bool debug) {
 } // namespace
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create(bool debug) {
+    const char* wanted = std::getenv("VITRAIL_GL");
+    const bool only_software = wanted && std::strcmp(wanted, "software") == 0;
     std::string tried;
-    for (const Candidate& candidate : candidates()) {
-        const EGLContext context = make_context(candidate.display, debug);
+    for (const Candidate& candidate : candidates(only_software)) {
+        const EGLContext context = make_context(candidate.display, debug, only_software);
         if (context != EGL_NO_CONTEXT) {
             std::unique_ptr<HeadlessContext> made(new HeadlessContext);
             made->display_ = candidate.display;

@@ -20,9 +20,11 @@ void LightAtlas::grow(u32 slabs) {
     // 16-bit texels keep a view of 12 chunks near 30 MB; a slab at a time, since most worlds need few.
     gfx::Texture bigger = gfx::make_texture_3d(GL_RGBA4, kRow * kBrick, kRow * kBrick, slabs * kBrick);
     gfx::set_filter(bigger, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
-    if (slabs_ > 0)
+    if (slabs_ > 0) {
         glCopyImageSubData(texture_.name(), GL_TEXTURE_3D, 0, 0, 0, 0, bigger.name(), GL_TEXTURE_3D, 0, 0, 0, 0,
                            GLsizei(kRow * kBrick), GLsizei(kRow * kBrick), GLsizei(slabs_ * kBrick));
+        glFinish(); // as gfx::grow_buffer
+    }
     texture_ = std::move(bigger);
     slabs_ = slabs;
 }

@@ -280,11 +280,7 @@ void Renderer::Impl::pass_tonemap(const gfx::FrameGraph& g) {
 void Renderer::Impl::reserve_models(u32 count) {
     if (count <= models_capacity) return;
     const u32 capacity = std::max(count, models_capacity * 2);
-    gfx::Buffer bigger = gfx::make_buffer(u64(capacity) * sizeof(scene::ModelQuad), GL_DYNAMIC_STORAGE_BIT);
-    if (models_held)
-        glCopyNamedBufferSubData(models.name(), bigger.name(), 0, 0,
-                                 GLsizeiptr(u64(models_held) * sizeof(scene::ModelQuad)));
-    models = std::move(bigger);
+    gfx::grow_buffer(models, u64(capacity) * sizeof(scene::ModelQuad), u64(models_held) * sizeof(scene::ModelQuad));
     models_capacity = capacity;
 }
 

@@ -53,9 +53,7 @@ void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
     if (!offset) {
         const u32 old = ranges_.capacity();
         ranges_.grow(std::max(old * 2, old + count));
-        gfx::Buffer bigger = gfx::make_buffer(u64(ranges_.capacity()) * sizeof(Quad), GL_DYNAMIC_STORAGE_BIT);
-        glCopyNamedBufferSubData(quads_.name(), bigger.name(), 0, 0, GLsizeiptr(u64(old) * sizeof(Quad)));
-        quads_ = std::move(bigger);
+        gfx::grow_buffer(quads_, u64(ranges_.capacity()) * sizeof(Quad), u64(old) * sizeof(Quad));
         offset = ranges_.allocate(count);
         VX_ASSERT(offset.has_value());
     }

@@ -26,10 +26,7 @@ TintTable::TintTable() {
 
 void TintTable::reserve(u32 slots) {
     if (slots <= capacity_) return;
-    gfx::Buffer bigger = gfx::make_buffer(u64(slots) * kWords * 4, GL_DYNAMIC_STORAGE_BIT);
-    if (capacity_)
-        glCopyNamedBufferSubData(buffer_.name(), bigger.name(), 0, 0, GLsizeiptr(u64(capacity_) * kWords * 4));
-    buffer_ = std::move(bigger);
+    gfx::grow_buffer(buffer_, u64(slots) * kWords * 4, u64(capacity_) * kWords * 4);
     capacity_ = slots;
 }
 

@@ -46,6 +46,9 @@ protected:
         bool underwater = false, trees = true;
     };
     static void shoot(const Shot& shot) {
+        if (const auto info = gfx::context_info(); !info || !info->software)
+            GTEST_SKIP() << "golden pictures are Mesa's; " << (info ? info->renderer : "")
+                         << " filters textures differently";
         bench::SampleScene scene(4, shot.trees);
         scene.registry.content_roots = {test_content()};
         auto renderer = make_renderer(shot.quality);
@@ -65,11 +68,23 @@ protected:
     }
 };
 
-TEST_F(Golden, LakeByDayLow) { shoot({"lake_day_low", Quality::low, 6000, -60, 18, 30.5, 14, -40.5}); }
-TEST_F(Golden, LakeByDayHigh) { shoot({"lake_day_high", Quality::high, 4000, -60, 18, 30.5, 14, -40.5}); }
-TEST_F(Golden, Sunset) { shoot({"sunset", Quality::high, 12000, 90, 3, 30.5, 14, -40.5}); }
-TEST_F(Golden, NightWithLamps) { shoot({"night_lamps", Quality::high, 18500, 10, 14, 4.5, 6, 4.5, false, false}); }
-TEST_F(Golden, HutByMorning) { shoot({"hut_morning", Quality::low, 1500, 10, 14, 4.5, 6, 4.5, false, false}); }
-TEST_F(Golden, UnderWater) { shoot({"under_water", Quality::high, 6000, -20, 2, 60.5, -4, -30.5, true}); }
+TEST_F(Golden, LakeByDayLow) {
+    shoot({"lake_day_low", Quality::low, 6000, -60, 18, 30.5, 14, -40.5});
+}
+TEST_F(Golden, LakeByDayHigh) {
+    shoot({"lake_day_high", Quality::high, 4000, -60, 18, 30.5, 14, -40.5});
+}
+TEST_F(Golden, Sunset) {
+    shoot({"sunset", Quality::high, 12000, 90, 3, 30.5, 14, -40.5});
+}
+TEST_F(Golden, NightWithLamps) {
+    shoot({"night_lamps", Quality::high, 18500, 10, 14, 4.5, 6, 4.5, false, false});
+}
+TEST_F(Golden, HutByMorning) {
+    shoot({"hut_morning", Quality::low, 1500, 10, 14, 4.5, 6, 4.5, false, false});
+}
+TEST_F(Golden, UnderWater) {
+    shoot({"under_water", Quality::high, 6000, -20, 2, 60.5, -4, -30.5, true});
+}
 
 } // namespace vitrail::render

@@ -121,6 +121,9 @@ Result<gfx::Texture> draw_icon(const gfx::Program& program, const TextureSet& te
     const gfx::Framebuffer framebuffer = gfx::make_framebuffer(colors, &depth);
     if (glCheckNamedFramebufferStatus(framebuffer.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return fail(ErrorCode::limit, "no framebuffer for a block's icon");
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE); // clearing heeds masks and scissors too
+    glDepthMask(GL_TRUE);
+    glDisable(GL_SCISSOR_TEST);
     const float clear[4] = {}, far = 0;
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, clear);
     glClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, &far);
@@ -138,12 +141,9 @@ Result<gfx::Texture> draw_icon(const gfx::Program& program, const TextureSet& te
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);
     glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
     glDepthFunc(GL_GEQUAL);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glUseProgram(program.name());
     glProgramUniform1i(program.name(), 0, flat ? 1 : 0);
     const u32 albedo = textures.albedo().name();
