@@ -6,17 +6,64 @@
 
 namespace vitrail::replica {
 
+namespace {
+
+// Cells that differ between two chunks, as the box around them.
+struct CellBounds {
+    i32 min[3] = {16, 16, 16}, max[3] = {-1, -1, -1};
+    bool empty() const { return max[0] < 0; }
+    void add(LocalPos p) {
+        const i32 at[3] = {p.x(), p.y(), p.z()};
+        for (int a = 0; a < 3; ++a)
+            min[a] = std::min(min[a], at[a]), max[a] = std::max(max[a], at[a]);
+    }
+};
+
+constexpr CellBounds kWhole{{0, 0, 0}, {15, 15, 15}};
+
+CellBounds block_difference(const Chunk& a, const Chunk& b) {
+    CellBounds bounds;
+    if (a.blocks == b.blocks) return bounds;
+    for (u32 i = 0; i < u32(kChunkVolume); ++i)
+        if (a.blocks.get(LocalPos(i)) != b.blocks.get(LocalPos(i))) bounds.add(LocalPos(i));
+    return bounds;
+}
+
+CellBounds light_difference(const Chunk& a, const Chunk& b) {
+    CellBounds bounds;
+    if (a.light == b.light) return bounds;
+    for (u32 i = 0; i < u32(kChunkVolume); ++i)
+        if (!(a.light->get(LocalPos(i)) == b.light->get(LocalPos(i)))) bounds.add(LocalPos(i));
+    return bounds;
+}
+
+// Whether changes within these bounds touch the neighbor in this direction, -1 to 1 an axis.
+bool touches(const CellBounds& bounds, i32 dx, i32 dy, i32 dz) {
+    const i32 way[3] = {dx, dy, dz};
+    for (int a = 0; a < 3; ++a)
+        if ((way[a] < 0 && bounds.min[a] != 0) || (way[a] > 0 && bounds.max[a] != 15)) return false;
+    return !bounds.empty();
+}
+
+} // namespace
+
 void Replica::mark(ChunkPos at, u8 what) {
     dirty_[at] |= what;
 }
 
-void Replica::mark_borders(ChunkPos at, u8 what) {
-    const u8 border = u8((what & kBlocksChanged ? kBorderBlocks : 0) | (what & kLightChanged ? kBorderLight : 0));
+void Replica::mark_difference(ChunkPos at, const Chunk* before, const Chunk* now) {
+    if (!now || before == now) return;
+    const CellBounds blocks = before ? block_difference(*before, *now) : kWhole;
+    const CellBounds light = before ? light_difference(*before, *now) : kWhole;
+    if (blocks.empty() && light.empty()) return;
+    mark(at, u8((blocks.empty() ? 0 : kBlocksChanged) | (light.empty() ? 0 : kLightChanged)));
     for (i32 dy = -1; dy <= 1; ++dy)
         for (i32 dz = -1; dz <= 1; ++dz)
             for (i32 dx = -1; dx <= 1; ++dx) {
+                const u8 border = u8((touches(blocks, dx, dy, dz) ? kBorderBlocks : 0) |
+                                     (touches(light, dx, dy, dz) ? kBorderLight : 0));
                 const ChunkPos p{at.x + dx, at.y + dy, at.z + dz};
-                if (!(p == at) && dimension_->find(p)) mark(p, border);
+                if (border && !(p == at) && dimension_->find(p)) mark(p, border);
             }
 }
 
@@ -25,19 +72,19 @@ ChunkPtr Replica::server_chunk(ChunkPos at) const {
     return kept != server_chunks_.end() ? kept->second : dimension_->find(at);
 }
 
-void Replica::put_server_chunk(ChunkPos at, ChunkPtr chunk, u8 what) {
+void Replica::put_server_chunk(ChunkPos at, ChunkPtr chunk) {
     const auto kept = server_chunks_.find(at);
     if (kept != server_chunks_.end()) {
         kept->second = std::move(chunk);
         unsettled_ = true; // shown, with what is still predicted on top, when this poll ends
         return;
     }
-    dimension_->put(at, std::move(chunk));
-    mark(at, what);
-    mark_borders(at, what);
+    const ChunkPtr before = dimension_->find(at);
+    dimension_->put(at, chunk);
+    mark_difference(at, before.get(), chunk.get());
 }
 
-ChangeSet Replica::predict(const std::vector<Edit>& edits) {
+void Replica::predict(const std::vector<Edit>& edits, std::unordered_map<ChunkPos, ChunkPtr>& shown) {
     // Light may change up to the top and bottom of the columns around; what stood there is the server's version, unless
     // an earlier prediction kept an older one.
     std::unordered_map<ChunkPos, ChunkPtr> before;
@@ -58,13 +105,14 @@ ChangeSet Replica::predict(const std::vector<Edit>& edits) {
     relight(*dimension_, changes);
     auto keep = [&](ChunkPos at) {
         const auto stood = before.find(at);
-        if (stood != before.end() && stood->second) server_chunks_.try_emplace(at, stood->second);
+        if (stood == before.end() || !stood->second) return;
+        server_chunks_.try_emplace(at, stood->second);
+        shown.try_emplace(at, stood->second);
     };
     for (ChunkPos at : changes.block_chunks)
         keep(at);
     for (ChunkPos at : changes.light_chunks)
         keep(at);
-    return changes;
 }
 
 void Replica::settle() {
@@ -78,24 +126,10 @@ void Replica::settle() {
         dimension_->put_heights(at, heights);
     server_chunks_.clear();
     server_heights_.clear();
-    for (const PendingEdit& pending : pending_) {
-        const ChangeSet changes = predict(pending.edits);
-        // Sections that this prediction reaches for the first time have no entry in `shown`.
-        for (ChunkPos at : changes.block_chunks)
-            if (!shown.contains(at)) mark(at, kBlocksChanged), mark_borders(at, kBlocksChanged);
-        for (ChunkPos at : changes.light_chunks)
-            if (!shown.contains(at)) mark(at, kLightChanged), mark_borders(at, kLightChanged);
-    }
-    for (const auto& [at, before] : shown) {
-        const ChunkPtr now = dimension_->find(at);
-        if (now == before || !now) continue;
-        u8 what = 0;
-        if (!before || !(before->blocks == now->blocks)) what |= kBlocksChanged;
-        if (!before || (before->light != now->light && !(*before->light == *now->light))) what |= kLightChanged;
-        if (!what) continue;
-        mark(at, what);
-        mark_borders(at, what);
-    }
+    for (const PendingEdit& pending : pending_)
+        predict(pending.edits, shown);
+    for (const auto& [at, before] : shown)
+        mark_difference(at, before.get(), dimension_->find(at).get());
 }
 
 bool Replica::is_guess(BlockPos at) const {
@@ -137,11 +171,10 @@ Result<u32> Replica::request(net::EditRequest message, std::vector<Edit> edits) 
     const std::vector<Edit> guesses = guess_laid_bare(edits);
     edits.insert(edits.end(), guesses.begin(), guesses.end());
     pending_.push_back({sequence, std::move(edits)});
-    const ChangeSet changes = predict(pending_.back().edits);
-    for (ChunkPos p : changes.block_chunks)
-        mark(p, kBlocksChanged), mark_borders(p, kBlocksChanged);
-    for (ChunkPos p : changes.light_chunks)
-        mark(p, kLightChanged), mark_borders(p, kLightChanged);
+    std::unordered_map<ChunkPos, ChunkPtr> shown;
+    predict(pending_.back().edits, shown);
+    for (const auto& [p, before] : shown)
+        mark_difference(p, before.get(), dimension_->find(p).get());
     return sequence;
 }
 

@@ -137,10 +137,11 @@ private:
 
     // predicted_edits.cpp
     ChunkPtr server_chunk(ChunkPos at) const; // as the server told it, without predictions
-    void put_server_chunk(ChunkPos at, ChunkPtr chunk, u8 what);
-    ChangeSet predict(const std::vector<Edit>& edits);
+    void put_server_chunk(ChunkPos at, ChunkPtr chunk);
+    // Adds what stood before to `shown`, where nothing is in it yet.
+    void predict(const std::vector<Edit>& edits, std::unordered_map<ChunkPos, ChunkPtr>& shown);
     void settle(); // shows the server's version with the pending edits on top
-    void mark_borders(ChunkPos at, u8 what);
+    void mark_difference(ChunkPos at, const Chunk* before, const Chunk* now);
     bool is_guess(BlockPos at) const;
     Result<u32> request(net::EditRequest request, std::vector<Edit> edits);
     std::vector<Edit> guess_laid_bare(const std::vector<Edit>& edits) const;

@@ -148,7 +148,7 @@ Result<> Replica::take(net::Sections& message) {
         chunk.revision = section.revision;
         section_bytes_ += section.chunk.size();
         ++stats_.sections;
-        put_server_chunk(at, std::make_shared<const Chunk>(std::move(chunk)), kBlocksChanged | kLightChanged);
+        put_server_chunk(at, std::make_shared<const Chunk>(std::move(chunk)));
     }
     return {};
 }
@@ -161,7 +161,7 @@ Result<> Replica::take(net::AirSections& message) {
         if (!in_world(at) || !dimension_->contains(origin_of(at)))
             return fail(ErrorCode::damaged, "a section outside the world");
         ++stats_.sections;
-        put_server_chunk(at, open_air_, kBlocksChanged | kLightChanged);
+        put_server_chunk(at, open_air_);
     }
     return {};
 }
@@ -205,7 +205,7 @@ Result<> Replica::take(net::BlockChanges& message) {
             chunk->blocks.set(LocalPos(delta.cells[i]), id);
         }
         chunk->revision = delta.revision;
-        put_server_chunk(at, std::move(chunk), kBlocksChanged);
+        put_server_chunk(at, std::move(chunk));
     }
     return {};
 }
@@ -223,7 +223,7 @@ Result<> Replica::take(net::LightChanges& message) {
         auto chunk = std::make_shared<Chunk>(*base);
         chunk->light = std::move(light);
         chunk->revision = delta.revision;
-        put_server_chunk(at, std::move(chunk), kLightChanged);
+        put_server_chunk(at, std::move(chunk));
     }
     return {};
 }

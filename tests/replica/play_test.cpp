@@ -71,6 +71,27 @@ TEST(Play, BlocksBreakAndLayBareWhatWasHidden) {
     expect_equal_surface(play, ann);
 }
 
+TEST(Play, OnlySectionsThatChangeAreDirty) {
+    Play play;
+    auto& ann = play.join("ann");
+    (void)ann.take_dirty();
+    // In the middle of a section's top: no neighbor's mesh differs but for the light above.
+    ASSERT_TRUE(ann.place_block({3, 63, 3}, Face::up, {0.5f, 1, 0.5f}, "minecraft:glass"));
+    play.tick(2);
+    u32 meshed = 0;
+    bool own = false, below = false;
+    for (const auto& d : ann.take_dirty()) {
+        meshed += (d.what & (replica::kBlocksChanged | replica::kBorderBlocks)) != 0;
+        own |= d.at == ChunkPos{0, 4, 0} && (d.what & replica::kBlocksChanged);
+        below |= d.at == ChunkPos{0, 3, 0} && (d.what & replica::kBorderBlocks);
+    }
+    EXPECT_TRUE(own);
+    EXPECT_TRUE(below);
+    EXPECT_EQ(meshed, 2u);
+    play.tick(2);
+    EXPECT_TRUE(ann.take_dirty().empty());
+}
+
 TEST(Play, GuessesGiveWayToTheTruth) {
     Play play("", [](Dimension& d) {
         const StateId ore = *d.states().intern_with_defaults(*parse_block_state("minecraft:gold_ore"));
