@@ -33,8 +33,16 @@ inline Image test_texture(std::array<u8, 3> color, u8 alpha, float holes, u64 se
 }
 
 // A folder with textures/ of everything the sample scene shows.
+struct TestFolder {
+    std::string path;
+    ~TestFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+};
+
 inline const std::string& test_content() {
-    static const std::string root = [] {
+    static const TestFolder root{[] {
         const std::string folder =
             fmt::format("{}/vitrail_render_test_{}", std::filesystem::temp_directory_path().string(), getpid());
         std::filesystem::create_directories(folder + "/textures");
@@ -63,13 +71,9 @@ inline const std::string& test_content() {
         for (const Entry& e : entries)
             (void)write_png(folder + "/textures/" + e.name + ".png", test_texture(e.color, e.alpha, e.holes, seed++));
         (void)write_png(folder + "/textures/glowstone_e.png", test_texture({220, 220, 220}, 255, 0, 99));
-        std::atexit([] {
-            std::error_code ignored;
-            std::filesystem::remove_all(test_content(), ignored);
-        });
         return folder;
-    }();
-    return root;
+    }()};
+    return root.path;
 }
 
 class RenderTest : public testing::Test {
