@@ -23,6 +23,7 @@ layout(location = 5) out vec3 v_local;
 out float gl_ClipDistance[1];
 
 const uint kFlagLiquid = 1u;
+const float kSeal = 0.06; // pixels that a cube quad grows by on each side
 
 vec3 unpack_color(uint c) { return vec3(c & 255u, c >> 8 & 255u, c >> 16 & 255u) * (1.0 / 255.0); }
 
@@ -122,7 +123,7 @@ void main() {
     vec3 position = vec3(in_section.xyz) + local - view.fraction.xyz;
     // Cracks at T-junctions are rounding, far less than a pixel: each cube quad grows by a hair.
     vec3 reach = abs(position);
-    position += grow * (max(max(reach.x, reach.y), reach.z) * view.ray_right.w * 0.06);
+    position += grow * (max(max(reach.x, reach.y), reach.z) * view.ray_right.w * kSeal);
     gl_Position = view.view_proj * vec4(position, 1.0);
     gl_ClipDistance[0] = dot(view.clip_plane, vec4(position, 1.0));
     if (gone) gl_Position = vec4(0.0, 0.0, -1.0, 0.0);

@@ -1,5 +1,5 @@
 // Terrain into the G-buffer, and translucent terrain over the lit picture: one multi-draw a kind of quad.
-// Cracks: see kSeal in terrain.vert.glsl; a cube quad grows outwards in its plane by 0.06 pixel.
+// Cracks at T-junctions: a cube quad grows outwards in its plane by kSeal (terrain.vert.glsl) of a pixel.
 #pragma once
 
 #include "base/result.h"
