@@ -30,7 +30,8 @@ struct RawClient {
                 ASSERT_TRUE(message) << message.error().message;
                 if (auto* goodbye = std::get_if<net::Goodbye>(&*message)) reason = goodbye->reason;
                 if (auto* body = std::get_if<net::BodyState>(&*message)) last = *body;
-                if (auto* result = std::get_if<net::EditResult>(&*message)) results.push_back(*result);
+                if (auto* result = std::get_if<net::EditResult>(&*message); result && result->outcome != net::EditOutcome::kept)
+                    results.push_back(*result);
                 welcomed |= std::holds_alternative<net::Welcome>(*message);
             });
         }
