@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <fmt/format.h>
 #include <thread>
 
@@ -26,6 +27,7 @@ Result<> run_serve(const ServeOptions& options) {
     std::signal(SIGTERM, [](int) { g_stop = true; });
     server->start();
     fmt::print("serving {}; Ctrl-C saves and ends\n", options.world);
+    std::fflush(stdout); // who started us through a pipe waits for this line
     while (!g_stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     return server->stop();
 }

@@ -44,11 +44,10 @@ void SectionFeeder::update(replica::Replica& replica, BlockPos eye, double budge
             }
             continue; // neighbors keep their meshes: what was hidden by it is out of sight
         }
-        sections_.try_emplace(dirty.at);
-        const bool blocks = dirty.what & replica::kBlocksChanged;
-        for (i32 dx = -1; dx <= 1; ++dx)
-            for (i32 dy = -1; dy <= 1; ++dy)
-                for (i32 dz = -1; dz <= 1; ++dz) mark({dirty.at.x + dx, dirty.at.y + dy, dirty.at.z + dz}, blocks, start);
+        if (dirty.what & (replica::kBlocksChanged | replica::kLightChanged)) sections_.try_emplace(dirty.at);
+        // The replica names the neighbors whose meshes or light a change reaches, so nothing is widened here.
+        if (dirty.what & (replica::kBlocksChanged | replica::kBorderBlocks)) mark(dirty.at, true, start);
+        else mark(dirty.at, false, start);
     }
     if (tints_.size() != replica.biomes().size()) {
         tints_.clear();

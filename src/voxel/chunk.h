@@ -1,6 +1,6 @@
-// Chunk: one 16^3 cube of the world as an immutable snapshot. Who wants a change copies it, changes the copy and publishes
-// that whole (copy-on-write); readers on other threads keep what they hold. A chunk that was never made is absent (a null
-// ChunkPtr), which differs from one that is all air.
+// Chunk: one 16^3 cube of the world as an immutable snapshot. Who wants a change copies it, changes the copy and
+// publishes that whole (copy-on-write); readers on other threads keep what they hold. A chunk that was never made is
+// absent (a null ChunkPtr), which differs from one that is all air.
 #pragma once
 
 #include "base/bytes.h"
@@ -23,7 +23,8 @@ struct BiomeGrid {
     friend bool operator==(const BiomeGrid&, const BiomeGrid&) = default;
 };
 
-// What a block keeps beside its state (a chest's items, a sign's text): uncompressed NBT of one compound, kept as it came.
+// What a block keeps beside its state (a chest's items, a sign's text): uncompressed NBT of one compound, kept as it
+// came.
 struct BlockEntity {
     LocalPos at;
     Bytes nbt;

@@ -24,9 +24,9 @@ struct BlockChange {
 };
 
 struct ChangeSet {
-    std::vector<BlockChange> blocks;       // only those that really changed
-    std::vector<ChunkPos> block_chunks;    // chunks whose blocks changed, each once
-    std::vector<ChunkPos> light_chunks;    // chunks whose light changed, each once; filled by light/
+    std::vector<BlockChange> blocks;    // only those that really changed
+    std::vector<ChunkPos> block_chunks; // chunks whose blocks changed, each once
+    std::vector<ChunkPos> light_chunks; // chunks whose light changed, each once; filled by light/
     bool empty() const { return blocks.empty() && light_chunks.empty(); }
 };
 

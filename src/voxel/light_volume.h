@@ -13,8 +13,10 @@ namespace vitrail {
 struct Light {
     u16 bits = 0;
     constexpr Light() = default;
-    constexpr explicit Light(u16 b) : bits(b) {}
-    constexpr Light(u32 sky, u32 r, u32 g, u32 b) : bits(u16(sky | r << 4 | g << 8 | b << 12)) {}
+    constexpr explicit Light(u16 b)
+        : bits(b) {}
+    constexpr Light(u32 sky, u32 r, u32 g, u32 b)
+        : bits(u16(sky | r << 4 | g << 8 | b << 12)) {}
     constexpr u32 sky() const { return bits & 15; }
     constexpr u32 red() const { return bits >> 4 & 15; }
     constexpr u32 green() const { return bits >> 8 & 15; }
@@ -25,8 +27,11 @@ struct Light {
 // Uniform volumes (open sky, deep rock) hold one value; others 8 KiB.
 class LightVolume {
 public:
-    explicit LightVolume(Light fill = Light{}) : fill_(fill) {}
-    LightVolume(const LightVolume& o) : fill_(o.fill_), cells_(o.cells_ ? std::make_unique<Cells>(*o.cells_) : nullptr) {}
+    explicit LightVolume(Light fill = Light{})
+        : fill_(fill) {}
+    LightVolume(const LightVolume& o)
+        : fill_(o.fill_)
+        , cells_(o.cells_ ? std::make_unique<Cells>(*o.cells_) : nullptr) {}
     LightVolume(LightVolume&&) = default;
     LightVolume& operator=(LightVolume&&) = default;
     LightVolume& operator=(const LightVolume& o) { return *this = LightVolume(o); }

@@ -23,6 +23,7 @@ layout(location = 5) out vec3 v_local;
 out float gl_ClipDistance[1];
 
 const uint kFlagLiquid = 1u;
+const float kLiquidDrop = 28.0 / 256.0; // render/meshing/quad.h
 const float kSeal = 0.06; // pixels that a cube quad grows by on each side
 
 vec3 unpack_color(uint c) { return vec3(c & 255u, c >> 8 & 255u, c >> 16 & 255u) * (1.0 / 255.0); }
@@ -76,6 +77,7 @@ void main() {
         float out_by = positive ? 1.0 : 0.0;
         vec3 add = axis == 0u ? vec3(out_by, h, w) : axis == 1u ? vec3(w, out_by, h) : vec3(w, h, out_by);
         local += add;
+        if ((q.y >> 28 & 1u) != 0u && face == 3u) local.y -= kLiquidDrop; // a level liquid ends below its cell's top
         float su = along_u * 2.0 - 1.0, sv = along_v * 2.0 - 1.0;
         grow = axis == 0u ? vec3(0.0, sv, su) : axis == 1u ? vec3(su, 0.0, sv) : vec3(su, sv, 0.0);
         float side = positive ? 1.0 : -1.0;
