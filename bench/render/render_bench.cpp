@@ -32,10 +32,10 @@ static void frame_bench(bench::Context& c, i32 chunks, render::Quality quality) 
 }
 
 void register_render_benches(bench::Suite& suite) {
-    suite.add("frame.raster.6", "ms", "854x480, low preset, 6 chunks, seeded landscape",
+    suite.add("frame.sample.6", "ms", "854x480, low preset, 6 chunks, seeded landscape",
               [](bench::Context& c) { frame_bench(c, 6, render::Quality::low); });
-    suite.add("frame.raster.12", "ms", "854x480, low preset, 12 chunks, seeded landscape",
+    suite.add("frame.sample.12", "ms", "854x480, low preset, 12 chunks, seeded landscape",
               [](bench::Context& c) { frame_bench(c, 12, render::Quality::low); });
-    suite.add("frame.raster_high.6", "ms", "854x480, high preset, 6 chunks, seeded landscape",
+    suite.add("frame.sample_high.6", "ms", "854x480, high preset, 6 chunks, seeded landscape",
               [](bench::Context& c) { frame_bench(c, 6, render::Quality::high); });
 }

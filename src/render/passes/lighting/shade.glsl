@@ -39,7 +39,7 @@ vec3 apply_fog(vec3 color, float away, vec3 towards, float underwater) {
     vec3 air = sky_dome(level);
     color = mix(color, air, far);
     // Water takes red first.
-    vec3 through = exp2(-away * vec3(0.22, 0.085, 0.06) * underwater);
+    vec3 through = exp2(-away * vec3(0.13, 0.050, 0.036) * underwater);
     vec3 murk = (ambient.rgb + sun_light.rgb * 0.25) * vec3(0.03, 0.16, 0.22);
     return color * through + murk * (1.0 - through);
 }

@@ -72,10 +72,10 @@ void main() {
     float height = max(d.y, 0.02) + 0.06;
     vec2 at = d.xz / height;
     vec2 drift = vec2(misc.x * 0.0011, misc.x * 0.0004);
-    float coarse = texture(t_noise, at * 0.045 + drift).r;
-    float fine = texture(t_noise, at * 0.17 + drift * 2.3).r;
-    float amount = coarse * 0.72 + fine * 0.28;
-    float cover = smoothstep(0.50, 0.74, amount) * smoothstep(0.02, 0.22, d.y);
+    float coarse = texture(t_noise, at * 0.060 + drift).r;
+    float fine = texture(t_noise, at * 0.23 + drift * 2.3).r;
+    float amount = coarse * 0.66 + fine * 0.34;
+    float cover = smoothstep(0.53, 0.70, amount) * smoothstep(0.02, 0.22, d.y);
     // Thick parts are grayer below; thin rims next to the sun shine.
     float thick = smoothstep(0.60, 0.85, amount);
     vec3 lit = ambient.rgb * 0.85 + sun_light.rgb * (0.42 - 0.20 * thick) + glow.rgb * (0.35 * h8 + 0.10);
