@@ -91,7 +91,10 @@ Result<ColumnData> ChunkSource::load(const DimensionInfo& dimension, ColumnPos a
                 data.chunks.push_back(std::move(s));
         }
     } else {
-        data.made = data.stored = whole || !stored.empty();
+        // Where nothing was ever made and nothing will be, there is open air: an imported world ends in a cliff that can be
+        // seen, and built out from; the store learns of such a column only when somebody does.
+        data.made = true;
+        data.stored = whole || !stored.empty();
         data.chunks = std::move(stored);
     }
     std::sort(data.chunks.begin(), data.chunks.end(), [](const auto& a, const auto& b) { return a.at.y < b.at.y; });

@@ -16,7 +16,7 @@ struct ColumnData {
     ColumnPos at;
     std::vector<WorldRecords::ColumnChunk> chunks; // bottom first; not lit; absent ones are air where `made`
     ColumnHeights heights;
-    bool made = false;   // false: never made, there is nothing here yet and no generator
+    bool made = false;   // absent chunks are air (also beyond the end of an imported world); false: not readable
     bool stored = false; // the store holds all of it already
 };
 

@@ -20,7 +20,7 @@ namespace vitrail::server {
 struct Column {
     enum class State : u8 { loading, ready }; // ready: in the dimension and lit
     State state = State::loading;
-    bool made = false;   // its absent chunks are air; else there is nothing here
+    bool made = false;   // its absent chunks are air; else it could not be read
     bool stored = false; // all of it is in the store, so that saving its changed chunks is enough
 };
 

@@ -50,7 +50,7 @@ TEST(ChunkSource, GeneratesWhatIsNotStoredWithTheHeightsAWorldWouldFind) {
     nether.id = DimensionId(1);
     auto column = s.source->load(nether, {0, 0});
     ASSERT_TRUE(column);
-    EXPECT_FALSE(column->made);
+    EXPECT_TRUE(column->chunks.empty());
 }
 
 TEST(ChunkSource, StoredColumnsWinOverTheGenerator) {
@@ -78,11 +78,12 @@ TEST(ChunkSource, StoredColumnsWinOverTheGenerator) {
     EXPECT_FALSE(ChunkSource::create(*s.records, *s.saves, {7, "no such generator", DimensionId::overworld}));
 }
 
-TEST(ChunkSource, WithoutAGeneratorNothingIsMade) {
+TEST(ChunkSource, WithoutAGeneratorThereIsOpenAirThatTheStoreDoesNotKnow) {
     Source s("");
     auto column = s.source->load(DimensionInfo{}, {0, 0});
     ASSERT_TRUE(column);
-    EXPECT_FALSE(column->made);
+    EXPECT_TRUE(column->made);
+    EXPECT_FALSE(column->stored);
     EXPECT_TRUE(column->chunks.empty());
 }
 

@@ -55,7 +55,8 @@ void main() {
     vec3 base = linear_from_srgb(albedo.rgb * v_tint);
     // Water's own color is the light it scatters: never as pure as a painted tint.
     if (liquid) base = mix(base, vec3(0.02, 0.12, 0.16) + dot(base, vec3(0.25, 0.55, 0.20)) * vec3(0.35, 0.60, 0.70), 0.6);
-    vec3 body = shade(base, n, light, v_uv_ao.z, 0.0, 0.1, towards);
+    // The sun in the water is the mirror below; counted as gloss too it would be a white sheet.
+    vec3 body = shade(base, n, light, v_uv_ao.z, 0.0, liquid ? 1.0 : 0.1, towards);
 #ifdef HIGH
     float behind = view.fraction.w / max(texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r, 1e-9);
     float here = view.fraction.w / max(gl_FragCoord.z, 1e-9);
