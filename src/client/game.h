@@ -88,5 +88,6 @@ void draw_interface(GameState& state);
 std::vector<std::string> debug_lines_left(const GameState& state);
 std::vector<std::string> debug_lines_right(const GameState& state);
 void say(GameState& state, std::string text);
+void keep_settings(GameState& state); // writes them where they are kept
 
 } // namespace vitrail::client

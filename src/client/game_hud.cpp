@@ -85,6 +85,11 @@ static void update_icons(GameState& state) {
     hotbar.icon_names = hotbar.names;
 }
 
+void keep_settings(GameState& state) {
+    if (state.options.settings_file.empty()) return;
+    if (const auto saved = save_settings(state.options.settings_file, state.settings); !saved) say(state, saved.error().message);
+}
+
 static void apply_settings(GameState& state, const Settings& before) {
     const Settings& now = state.settings = sane(state.settings);
     if (now.view_distance != before.view_distance) state.game->replica().set_view_distance(u32(now.view_distance));
@@ -93,8 +98,7 @@ static void apply_settings(GameState& state, const Settings& before) {
     if (now.high_quality != before.high_quality)
         state.renderer->set_quality(now.high_quality ? render::Quality::high : render::Quality::low);
     if (now.ui_scale != before.ui_scale) apply_style(now.ui_scale);
-    if (state.options.settings_file.empty()) return;
-    if (const auto saved = save_settings(state.options.settings_file, now); !saved) say(state, saved.error().message);
+    keep_settings(state);
 }
 
 void draw_interface(GameState& state) {

@@ -22,7 +22,7 @@ void set_paused(GameState& state, bool paused) {
 
 static void open_block_list(GameState& state, bool open) {
     state.block_list_open = open;
-    state.window->capture_mouse(!open);
+    state.window->capture_mouse(!open && !state.paused);
     state.window->start_text_input(open);
     state.held.clear();
     state.break_held = state.place_held = false;
@@ -53,6 +53,7 @@ static void on_key(GameState& state, Key key, bool down, bool repeat) {
     if (key == Key::f11) {
         state.settings.fullscreen = !state.settings.fullscreen;
         state.window->set_fullscreen(state.settings.fullscreen);
+        keep_settings(state);
     }
     if (state.paused || state.block_list_open) return;
     state.held.insert(key);

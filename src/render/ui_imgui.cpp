@@ -35,7 +35,16 @@ UiLayer::~UiLayer() {
 void UiLayer::begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplSDL2_NewFrame();
-    if (window_->mouse_captured()) ImGui::GetIO().MousePos = ImVec2(-1e9f, -1e9f); // the pointer is hidden
+    ImGuiIO& io = ImGui::GetIO();
+    if (window_->mouse_captured()) {
+        io.MousePos = ImVec2(-1e9f, -1e9f); // the pointer is hidden
+    } else if (ImGui::IsMousePosValid(&io.MousePos)) {
+        // The backend asks for the pointer on the screen, which stands still for X11 while a button is held: sliders would not
+        // follow. Where the window's own events put it is right everywhere.
+        int x = 0, y = 0;
+        SDL_GetMouseState(&x, &y);
+        io.MousePos = ImVec2(float(x), float(y));
+    }
     ImGui::NewFrame();
 }
 
