@@ -17,9 +17,9 @@ WorldPos interpolate(WorldPos before, WorldPos after, float alpha) {
 bool eye_in_liquid(const Dimension& dimension, WorldPos eye) {
     const BlockPos at = block_of(eye);
     const StateId state = dimension.state_at(at);
-    if (!(dimension.states().flags(state) & kLiquid)) return false;
-    const StateId above = dimension.state_at({at.x, at.y + 1, at.z});
-    if (dimension.states().flags(above) & kLiquid) return true;
+    const auto wet = [&](StateId id) { return dimension.states().flags(id) & kLiquid || dimension.states().info(id).in_water; };
+    if (!wet(state)) return false;
+    if (wet(dimension.state_at({at.x, at.y + 1, at.z}))) return true;
     const float height = float(liquid_height(dimension.states().info(state).liquid_level)) / float(kShapeUnit);
     return view_from(corner_of(at), eye).v.y < height;
 }

@@ -51,6 +51,10 @@ bool is_liquid(const StateTable& states, StateId id) {
     return states.flags(id) & kLiquid;
 }
 
+bool fills_cell(const StateTable& states, StateId below, StateId above) {
+    return states.info(below).in_water || is_liquid(states, above) || states.info(above).in_water;
+}
+
 Medium medium_of(const Dimension& dimension, WorldPos feet, i64 height) {
     Medium out;
     const StateTable& states = dimension.states();
@@ -68,9 +72,9 @@ Medium medium_of(const Dimension& dimension, WorldPos feet, i64 height) {
                 if (id == StateId::air) continue;
                 const StateInfo& info = states.info(id);
                 if (at == feet_cell && states.flags(id) & kClimbable) out.climbable = true;
-                const bool logged = info.state.get("waterlogged") == "true";
+                const bool logged = info.in_water;
                 if (is_liquid(states, id) || logged) {
-                    const i32 units = logged || is_liquid(states, dimension.state_at({x, y + 1, z}))
+                    const i32 units = fills_cell(states, id, dimension.state_at({x, y + 1, z}))
                                           ? kShapeUnit
                                           : liquid_height(info.liquid_level);
                     const i64 surface = i64(y) * kFixedOne + units * (kFixedOne / kShapeUnit);

@@ -304,7 +304,7 @@ BlockState connected(const EditView& view, BlockPos at, BlockState state) {
 }
 
 BlockState remains_of(const StateInfo& info) {
-    if (info.state.get("waterlogged") == "true") return {"minecraft:water", {{"level", "0"}}};
+    if (info.in_water) return {"minecraft:water", {{"level", "0"}}};
     return {"minecraft:air", {}};
 }
 

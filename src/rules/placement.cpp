@@ -193,8 +193,8 @@ void choose_state(Placing& p) {
     }
     p.set_if_allowed("persistent", "true"); // leaves put by hand do not wither
     const StateInfo& before = p.view.info_at(p.target);
-    const bool water =
-        before.look->shape == ShapeKind::liquid && before.look->material == "water" && before.liquid_level == 0;
+    const bool water = before.in_water || (before.look->shape == ShapeKind::liquid && before.look->material == "water" &&
+                                           before.liquid_level == 0);
     if (p.has("waterlogged")) p.state.set("waterlogged", water && p.state.get("type") != "double" ? "true" : "false");
 }
 

@@ -78,13 +78,6 @@ ModelPass pass_of(RenderLayer layer) {
     return ModelPass::translucent;
 }
 
-bool wants_water(const BlockState& state) {
-    if (state.get("waterlogged") == "true") return true;
-    const std::string_view n = state.name;
-    return n == "minecraft:kelp" || n == "minecraft:kelp_plant" || n == "minecraft:seagrass" ||
-           n == "minecraft:tall_seagrass";
-}
-
 // Whether this block's facing may point up or down: its side pictures then turn with it (pistons, observers, barrels).
 bool six_facings(const BlockDef& def) {
     for (const PropertyDef& p : def.properties)
@@ -241,7 +234,7 @@ void BlockModels::compile(const StateTable& states, u32 id) {
                                        Impl::pack(q.texture, dye, q.facing, look_flags),
                                    q.cull, pass_of(look.layer)});
         }
-        if (wants_water(info.state)) {
+        if (info.in_water) {
             const BlockId water = states.registry().find_block("minecraft:water");
             if (water != BlockId::unknown) {
                 StateInfo source;

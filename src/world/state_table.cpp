@@ -94,6 +94,12 @@ const BlockLook& unknown_look() {
 
 } // namespace
 
+static bool stands_in_water(const BlockState& state) {
+    if (state.get("waterlogged") == "true") return true;
+    const std::string_view n = state.name;
+    return n == "minecraft:kelp" || n == "minecraft:kelp_plant" || n == "minecraft:seagrass" || n == "minecraft:tall_seagrass";
+}
+
 StateTable::StateTable(std::shared_ptr<const BlockRegistry> registry)
     : registry_(std::move(registry)) {
     infos_ = reserve_zero_pages<std::unique_ptr<StateInfo>>();
@@ -143,6 +149,7 @@ std::optional<StateId> StateTable::find(const std::string& text) const {
 void StateTable::resolve(u32 id, const BlockState& state) {
     auto info = std::make_unique<StateInfo>();
     info->state = state;
+    info->in_water = stands_in_water(state);
     u8 flags = 0;
     if (state.name == "vitrail:hidden") {
         info->look = &unknown_look();

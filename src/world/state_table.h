@@ -36,6 +36,7 @@ struct StateInfo {
     Shape shape;
     std::array<TextureId, 6> face_textures{}; // west, east, down, up, north, south; turned by axis and facing
     u8 liquid_level = 0;
+    bool in_water = false; // stands in a source of water: waterlogged, or a plant that grows only there
 };
 
 // What light/ needs of a state, 4 bytes.

@@ -11,12 +11,18 @@ static Dimension pond() {
     water.look.shape = ShapeKind::liquid;
     water.look.collision = false;
     registry->add_block(water);
+    BlockDef kelp;
+    kelp.name = "minecraft:kelp_plant";
+    kelp.look.shape = ShapeKind::cross;
+    kelp.look.collision = false;
+    registry->add_block(kelp);
     auto states = std::make_shared<StateTable>(registry);
     const StateId id = *states->intern(*parse_block_state("water[level=0]"));
     Dimension dimension({}, states);
     auto chunk = std::make_shared<Chunk>();
     chunk->blocks.set({1, 1, 1}, id);
     chunk->blocks.set({1, 2, 1}, id);
+    chunk->blocks.set({5, 1, 1}, *states->intern(*parse_block_state("kelp_plant")));
     dimension.put({0, 0, 0}, chunk);
     return dimension;
 }
@@ -27,6 +33,8 @@ TEST(FrameBuilder, TheEyeIsUnderWaterOnlyBelowItsSurface) {
     EXPECT_TRUE(client::eye_in_liquid(d, world_pos_from_numbers(1.5, 2.5, 1.5)));
     EXPECT_FALSE(client::eye_in_liquid(d, world_pos_from_numbers(1.5, 2.97, 1.5)));
     EXPECT_FALSE(client::eye_in_liquid(d, world_pos_from_numbers(3.5, 1.5, 1.5)));
+    EXPECT_TRUE(client::eye_in_liquid(d, world_pos_from_numbers(5.5, 1.5, 1.5))); // kelp stands in water
+    EXPECT_FALSE(client::eye_in_liquid(d, world_pos_from_numbers(5.5, 1.97, 1.5)));
 }
 
 TEST(FrameBuilder, InterpolationIsExactAtBothEndsAndJumpsOverTeleports) {

@@ -54,6 +54,12 @@ protected:
     std::vector<BodyState> bodies;
 };
 
+TEST_F(Building, PlantsOfTheSeaLeaveTheirWater) {
+    world.set(0, 0, 0, "kelp");
+    EXPECT_FALSE(take(0, 0, 0));
+    EXPECT_EQ(s(0, 0, 0).substr(0, 5), "water");
+}
+
 TEST_F(Building, PlainBlocksAndAxes) {
     EXPECT_FALSE(place("stone", 0, -1, 0, Face::up));
     EXPECT_EQ(s(0, 0, 0), "stone");

@@ -57,6 +57,7 @@ inline std::shared_ptr<const BlockRegistry> rules_registry() {
             plain);
         add("torch", ShapeKind::torch, {}, open);
         add("wall_torch", ShapeKind::wall_torch, {face}, open);
+        add("kelp", ShapeKind::cross, {}, open);
         add("short_grass", ShapeKind::cross, {}, [](BlockLook& look) {
             look.collision = false;
             look.replaceable = true;
