@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,8 @@ public:
         auto keeper = std::make_unique<Keeper>();
         VX_TRY_ASSIGN(keeper->records_, WorldRecords::open(folder, registry, {.create = true}));
         VX_TRY_ASSIGN(const auto level, keeper->records_->load_level());
+        if (level && level->unfinished)
+            return fail(ErrorCode::denied, fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again", folder, level->source));
         if (level && (level->seed != seed || level->generator != "hills"))
             return fail(ErrorCode::invalid_argument,
                         fmt::format("{} is a world of seed {} and generator '{}' already", folder, level->seed, level->generator));
@@ -117,11 +120,19 @@ Result<> run_generate(const GenerateOptions& options) {
     if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
     VX_TRY_ASSIGN(const auto registry, load_base_content());
 
+    const std::atomic<bool>& stop = stop_on_signals(); // before the first byte is written
     std::unique_ptr<Keeper> keeper;
     StateTable own_states(registry);
     BiomeTable own_biomes;
     if (!options.world.empty()) {
-        VX_TRY_ASSIGN(keeper, Keeper::open(options.world, options.seed, registry));
+        std::error_code ignored;
+        const bool existed = std::filesystem::exists(options.world, ignored);
+        auto opened = Keeper::open(options.world, options.seed, registry);
+        if (!opened) {
+            if (!existed && opened.error().code != ErrorCode::busy) std::filesystem::remove_all(options.world, ignored);
+            return tl::unexpected(opened.error());
+        }
+        keeper = std::move(*opened);
     }
     VX_TRY_ASSIGN(const TerrainPalette palette,
                   make_palette(keeper ? keeper->states() : own_states, keeper ? keeper->biomes() : own_biomes));
@@ -129,9 +140,11 @@ Result<> run_generate(const GenerateOptions& options) {
     std::atomic<u64> hash{0}, filled{0};
     std::mutex error_mutex;
     Result<> trouble;
+    std::atomic<bool> failed{false};
     ThreadPool pool(default_worker_count());
     const u32 width = u32(area.x1 - area.x0 + 1);
     pool.parallel_for(u32(area.count()), [&](u32 i) {
+        if (failed || stop) return;
         const ColumnPos at{area.x0 + i32(i % width), area.z0 + i32(i / width)};
         GeneratedColumn column = generate_column(options.seed, at, palette);
         // A sum, so that the order of columns does not matter; the position is mixed in, so that their places do.
@@ -141,11 +154,14 @@ Result<> run_generate(const GenerateOptions& options) {
         if (!keeper) return;
         if (auto result = keeper->keep(at, column); !result) {
             std::lock_guard lock(error_mutex);
-            trouble = result;
+            if (!failed.exchange(true)) trouble = result; // one line: the first
         }
     });
     VX_TRY(trouble);
     if (keeper) VX_TRY(keeper->flush());
+    if (stop)
+        return fail(ErrorCode::denied, keeper ? fmt::format("interrupted; {} keeps what was done, the same command goes on", options.world)
+                                              : "interrupted");
     const double seconds = seconds_since(start);
     fmt::print("{} columns, {} chunks with anything in them, {:.3f} s, {:.0f} columns/s\n", area.count(), filled.load(), seconds,
                double(area.count()) / seconds);

@@ -1,6 +1,7 @@
 #include "apps/commands.h"
 
 #include "base/clock.h"
+#include "base/log.h"
 #include "formats/count.h"
 #include "jobs/thread_pool.h"
 #include "pipeline/import.h"
@@ -65,32 +66,63 @@ Result<> run_count(const ImportOptions& options) {
     return {};
 }
 
+void remove_store(const fs::path& folder) {
+    std::error_code ignored;
+    for (const char* name : {"world.sqlite", "world.sqlite-wal", "world.sqlite-shm", "lock"}) fs::remove(folder / name, ignored);
+}
+
+// Good where the folder holds nothing but an import that was killed. Errors: a world is there.
+Result<> check_unfinished(const std::string& folder) {
+    const auto records = WorldRecords::open(folder, std::make_shared<BlockRegistry>(), {.read_only = true});
+    if (!records && records.error().code == ErrorCode::not_found) return {}; // killed before its store had a table
+    if (!records) return tl::unexpected(records.error());
+    VX_TRY_ASSIGN(const auto level, (*records)->load_level());
+    if (level && level->unfinished) return {};
+    VX_TRY_ASSIGN(const auto dimensions, (*records)->load_dimensions());
+    if (!level && dimensions.empty() && (*records)->damage().empty()) return {}; // killed before its first record
+    return fail(ErrorCode::invalid_argument, fmt::format("{} holds a world already: an import fills a new one", folder));
+}
+
 } // namespace
 
 Result<> run_import(const ImportOptions& options) {
     if (!options.count_file.empty()) return run_count(options);
     if (options.world.empty()) return fail(ErrorCode::invalid_argument, "import wants --world DIR, or --count FILE.json");
-    if (has_sqlite_store(options.world))
-        return fail(ErrorCode::invalid_argument, fmt::format("{} holds a world already: an import fills a new one", options.world));
+    const bool unfinished = has_sqlite_store(options.world);
+    if (unfinished) VX_TRY(check_unfinished(options.world));
     // Looked at before a folder is made, so that a wrong source leaves nothing behind.
     {
         VX_TRY_ASSIGN(const auto source, open_world_source(options.source));
         (void)source;
     }
     VX_TRY_ASSIGN(const auto registry, load_base_content());
-    const bool existed = fs::exists(options.world);
+    std::error_code error;
+    const bool existed = fs::exists(options.world, error);
+    if (error) return fail(ErrorCode::io, fmt::format("world {}: {}", options.world, error.message()));
+    if (unfinished) {
+        // Opened for writing, it is ours alone: nobody is filling it now.
+        VX_TRY_ASSIGN(const auto held, WorldRecords::open(options.world, registry, {}));
+        log_info(fmt::format("{} holds an import that did not end: beginning anew", options.world));
+    }
+    if (unfinished) remove_store(options.world);
+    const std::atomic<bool>& stop = stop_on_signals(); // before the first byte is written
     Result<ImportReport> report = fail(ErrorCode::io, "");
     {
-        VX_TRY_ASSIGN(const auto records, WorldRecords::open(options.world, registry, {.create = true}));
-        StoreSink sink(*records);
-        ThreadPool pool(default_worker_count());
-        ProgressBar bar(options.quiet);
-        report = import_world(options.source, sink, pool, [&](const ImportProgress& p) { bar.show(p); });
+        const auto records = WorldRecords::open(options.world, registry, {.create = true});
+        if (records) {
+            StoreSink sink(**records, {.stop = &stop});
+            ThreadPool pool(default_worker_count());
+            ProgressBar bar(options.quiet);
+            report = import_world(options.source, sink, pool, [&](const ImportProgress& p) { bar.show(p); });
+        } else {
+            report = tl::unexpected(records.error());
+            if (report.error().code == ErrorCode::busy) return tl::unexpected(report.error()); // another's, not to be removed
+        }
     }
     if (!report || report->columns == 0) {
         std::error_code ignored;
         if (!existed) fs::remove_all(options.world, ignored);
-        else for (const char* name : {"world.sqlite", "world.sqlite-wal", "world.sqlite-shm", "lock"}) fs::remove(fs::path(options.world) / name, ignored);
+        else remove_store(options.world);
         if (!report) return tl::unexpected(report.error());
         return fail(ErrorCode::damaged, fmt::format("{}: no chunk in it can be read", options.source));
     }

@@ -29,9 +29,8 @@ Result<> run_play(const PlayOptions& options) {
         game.width = size.first;
         game.height = size.second;
     }
-    const fs::path world = options.world.empty() ? data_folder() / "worlds/default" : fs::path(options.world);
-    std::error_code error;
-    fs::create_directories(world.parent_path().empty() ? fs::path(".") : world.parent_path(), error);
+    fs::path world = options.world.empty() ? data_folder() / "worlds/default" : fs::path(options.world).lexically_normal();
+    if (!world.has_filename()) world = world.parent_path(); // "DIR/"
     game.local.server.folder = world.string();
     game.local.server.name = world.filename().string();
     game.local.server.seed = options.seed;

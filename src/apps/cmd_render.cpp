@@ -60,6 +60,7 @@ Result<> run_render(const RenderOptions& wanted) {
     VX_TRY(check_writable(options.output));
     if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
     VX_TRY_ASSIGN(const auto registry, load_base_content());
+    still_options.stop = &stop_on_signals(); // a passing world lies in a folder that must go
     VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, registry));
 
     const u64 start = now_ns();

@@ -5,14 +5,11 @@
 
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
 #include <thread>
 
 namespace vitrail::apps {
-
-static std::atomic<bool> g_stop{false};
 
 // Runs the world until SIGINT or SIGTERM and saves it. No socket transport exists yet, so nobody can join from outside: an
 // honest `--port` says so.
@@ -23,12 +20,11 @@ Result<> run_serve(const ServeOptions& options) {
     server_options.folder = options.world;
     server_options.create = false;
     VX_TRY_ASSIGN(const auto server, server::Server::open(server_options, registry));
-    std::signal(SIGINT, [](int) { g_stop = true; });
-    std::signal(SIGTERM, [](int) { g_stop = true; });
+    const std::atomic<bool>& stop = stop_on_signals();
     server->start();
     fmt::print("serving {}; Ctrl-C saves and ends\n", options.world);
     std::fflush(stdout); // who started us through a pipe waits for this line
-    while (!g_stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    while (!stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     return server->stop();
 }
 

@@ -12,6 +12,9 @@ namespace vitrail::apps {
 Result<> run_inspect(const WorldOptions& options) {
     if (!options.blocks_file.empty()) VX_TRY(check_writable(options.blocks_file));
     VX_TRY_ASSIGN(const InspectReport report, inspect_world(options.world));
+    if (report.level.unfinished)
+        return fail(ErrorCode::denied, fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again", options.world,
+                                                   report.level.source));
     u64 blocks = 0, solid = 0;
     for (const auto& [name, count] : report.blocks) {
         blocks += count;

@@ -6,7 +6,9 @@
 #include "base/types.h"
 #include "voxel/coords.h"
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,13 +75,20 @@ Result<> run_doctor();
 
 // --- shared by the commands ---
 
+// Turns true at SIGINT or SIGTERM from now on, so that a command can end in order; a second one ends the program at once.
+const std::atomic<bool>& stop_on_signals();
+// Runs a command and turns what went wrong, exceptions included, into one line on standard error. The exit status: 0 or 2.
+int exit_status(const char* program, const std::function<Result<>()>& command);
+// The one line that a message is shown as: newlines and other control characters become blanks.
+std::string one_line(std::string text);
+
 // The folder content/: $VITRAIL_CONTENT, beside the program, or the source tree it was built from. Errors: not_found.
 Result<std::filesystem::path> content_folder();
 // content/base, compiled. Errors: those of the scripts.
 Result<std::shared_ptr<BlockRegistry>> load_base_content();
 // "1,2,3" to numbers; exactly `count` of them. Errors: invalid_argument, naming the option.
 Result<std::vector<double>> parse_numbers(const std::string& option, const std::string& text, std::size_t count);
-// "854x480"; 16 to 16384 a side.
+// "854x480"; 16 to 16384 a side, at most 64 million pixels.
 Result<std::pair<u32, u32>> parse_size(const std::string& text);
 // Writes a file whole (beside it first, then renamed) or says why not.
 Result<> write_file(const std::string& path, const std::string& text);

@@ -2,22 +2,61 @@
 
 #include "script/content_loader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <new>
 #include <unistd.h>
 
 namespace vitrail::apps {
 
 namespace fs = std::filesystem;
 
+static std::atomic<bool> g_stop{false};
+
+const std::atomic<bool>& stop_on_signals() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { g_stop = true; };
+    action.sa_flags = int(SA_RESETHAND);
+    for (int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
+    return g_stop;
+}
+
+std::string one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+    return text;
+}
+
+int exit_status(const char* program, const std::function<Result<>()>& command) {
+    std::string message;
+    try {
+        const Result<> result = command();
+        if (result) return 0;
+        message = result.error().message;
+    } catch (const std::bad_alloc&) {
+        message = "not enough memory";
+    } catch (const std::exception& error) { // the standard library's, of file systems and threads
+        message = error.what();
+    }
+    std::fprintf(stderr, "%s: %s\n", program, one_line(message).c_str());
+    return 2;
+}
+
 Result<fs::path> content_folder() {
     std::vector<fs::path> places;
-    if (const char* chosen = std::getenv("VITRAIL_CONTENT")) places.emplace_back(chosen);
     std::error_code ignored;
+    if (const char* chosen = std::getenv("VITRAIL_CONTENT"); chosen && *chosen) {
+        if (!fs::is_directory(fs::path(chosen) / "base", ignored))
+            return fail(ErrorCode::not_found, fmt::format("no content folder: VITRAIL_CONTENT is {}, which has no folder base", chosen));
+        return fs::weakly_canonical(chosen, ignored);
+    }
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
     if (!program.empty()) {
         places.push_back(program / "../../../content"); // build/PRESET/bin
@@ -34,6 +73,9 @@ Result<fs::path> content_folder() {
 Result<std::shared_ptr<BlockRegistry>> load_base_content() {
     VX_TRY_ASSIGN(const fs::path folder, content_folder());
     const std::vector<fs::path> roots{folder / "base"};
+    std::error_code error;
+    const bool any = std::any_of(fs::directory_iterator(roots[0], error), {}, [](const auto& entry) { return entry.path().extension() == ".lua"; });
+    if (error || !any) return fail(ErrorCode::not_found, fmt::format("no script in {}: the content is not complete", roots[0].string()));
     return load_content(roots);
 }
 
@@ -63,10 +105,10 @@ Result<std::pair<u32, u32>> parse_size(const std::string& text) {
         const auto a = std::from_chars(text.data(), text.data() + x, width);
         const auto b = std::from_chars(text.data() + x + 1, text.data() + text.size(), height);
         if (a.ec == std::errc() && a.ptr == text.data() + x && b.ec == std::errc() && b.ptr == text.data() + text.size() &&
-            width >= 16 && height >= 16 && width <= 16384 && height <= 16384)
+            width >= 16 && height >= 16 && width <= 16384 && height <= 16384 && u64(width) * height <= 64'000'000)
             return std::pair{width, height};
     }
-    return fail(ErrorCode::invalid_argument, fmt::format("--size wants WxH of 16 to 16384, not '{}'", text));
+    return fail(ErrorCode::invalid_argument, fmt::format("--size wants WxH of 16 to 16384 a side and at most 64 million pixels, not '{}'", text));
 }
 
 Result<> write_file(const std::string& path, const std::string& text) {

@@ -4,7 +4,9 @@
 #include "base/log.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 
 using namespace vitrail;
@@ -17,7 +19,44 @@ struct Command {
     std::function<Result<>()> run;
 };
 
-std::string first_line(std::string text) { return text.substr(0, text.find('\n')); }
+std::string first_line(const std::string& text) { return one_line(text.substr(0, text.find('\n'))); }
+
+// CLI::Range lets NaN pass.
+CLI::Validator number_in(double least, double most) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            char* end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            if (!text.empty() && *end == 0 && value >= least && value <= most) return std::string();
+            return "'" + text + "' is no number from " + CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
+        },
+        "NUMBER");
+}
+
+// A seed: a whole number of 64 bits, with or without sign.
+CLI::Validator seed_number() {
+    return CLI::Validator(
+        [](std::string& text) {
+            const char* end = text.data() + text.size();
+            i64 with_sign = 0;
+            u64 without = 0;
+            const auto a = std::from_chars(text.data(), end, with_sign);
+            const auto b = std::from_chars(text.data(), end, without);
+            const bool good = (a.ec == std::errc() && a.ptr == end) || (b.ec == std::errc() && b.ptr == end);
+            return good ? std::string() : "'" + text + "' is no whole number of 64 bits";
+        },
+        "SEED");
+}
+
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
+}
+
+// No option of ours means anything when its text is empty.
+void refuse_empty_texts(CLI::App& command) {
+    for (CLI::Option* option : command.get_options())
+        if (option->get_type_size() > 0) option->check(not_empty());
+}
 
 } // namespace
 
@@ -56,7 +95,7 @@ int main(int argc, char** argv) {
     GenerateOptions generate;
     {
         auto* c = app.add_subcommand("generate", "Generate terrain");
-        c->add_option("--seed", generate.seed, "world seed");
+        c->add_option("--seed", generate.seed, "world seed")->check(seed_number());
         c->add_option("--columns", generate.columns, "X0,Z0,X1,Z1 in chunk columns, inclusive");
         c->add_option("--device", generate.device, "cpu or cuda");
         c->add_option("--world", generate.world, "keep it in this world folder");
@@ -69,15 +108,15 @@ int main(int argc, char** argv) {
     {
         auto* c = app.add_subcommand("render", "Draw one picture");
         c->add_option("--world", render.world, "world folder");
-        c->add_option("--seed", render.seed, "a new world of this seed, kept nowhere");
+        c->add_option("--seed", render.seed, "a new world of this seed, kept nowhere")->check(seed_number());
         c->add_option("--dimension", render.dimension, "dimension name");
         c->add_option("--at", render.at, "X,Y,Z of the eye");
         c->add_option("--look", render.look, "YAW,PITCH in degrees");
-        c->add_option("--fov", render.fov_deg, "vertical field of view, degrees")->check(CLI::Range(5.0f, 150.0f));
+        c->add_option("--fov", render.fov_deg, "vertical field of view, degrees")->check(number_in(5, 150));
         c->add_option("--size", render.size, "WxH in pixels");
-        c->add_option("--time", render.time, "time of day, 6000 is noon")->check(CLI::Range(0.0f, 24000.0f));
+        c->add_option("--time", render.time, "time of day, 6000 is noon")->check(number_in(0, 24000));
         c->add_option("--renderer", render.renderer, "raster or trace");
-        c->add_option("--spp", render.spp, "samples a pixel (trace)");
+        c->add_option("--spp", render.spp, "samples a pixel (trace)")->check(CLI::Range(1, 1'000'000));
         c->add_option("--device", render.device, "cpu or cuda (trace)");
         c->add_option("--quality", render.quality, "low or high")->check(CLI::IsMember({"low", "high"}));
         c->add_option("--view-distance", render.view_distance, "chunks")->check(CLI::Range(1, 32));
@@ -90,7 +129,7 @@ int main(int argc, char** argv) {
     {
         auto* c = app.add_subcommand("play", "Walk in a world");
         c->add_option("--world", play.world, "world folder (made where there is none)");
-        c->add_option("--seed", play.seed, "seed of a new world");
+        c->add_option("--seed", play.seed, "seed of a new world")->check(seed_number());
         c->add_option("--connect", play.connect, "HOST:PORT of a server");
         c->add_option("--renderer", play.renderer, "raster or trace");
         c->add_option("--size", play.size, "WxH of the window");
@@ -118,6 +157,7 @@ int main(int argc, char** argv) {
     }
     commands.push_back({app.add_subcommand("doctor", "Say what this machine offers"), [] { return run_doctor(); }});
 
+    for (const Command& command : commands) refuse_empty_texts(*command.app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -128,10 +168,7 @@ int main(int argc, char** argv) {
     set_log_level(verbose ? LogLevel::debug : LogLevel::info);
     for (const Command& command : commands) {
         if (!command.app->parsed()) continue;
-        const Result<> result = command.run();
-        if (result) return 0;
-        std::fprintf(stderr, "vitrail: %s\n", first_line(result.error().message).c_str());
-        return 2;
+        return exit_status("vitrail", command.run);
     }
     return 2;
 }

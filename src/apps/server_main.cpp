@@ -13,11 +13,8 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        std::fprintf(stderr, "vitrail-server: %s\n", error.what());
+        std::fprintf(stderr, "vitrail-server: %s\n", vitrail::apps::one_line(error.what()).c_str());
         return 2;
     }
-    const auto result = vitrail::apps::run_serve(options);
-    if (result) return 0;
-    std::fprintf(stderr, "vitrail-server: %s\n", result.error().message.c_str());
-    return 2;
+    return vitrail::apps::exit_status("vitrail-server", [&] { return vitrail::apps::run_serve(options); });
 }

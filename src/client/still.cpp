@@ -78,6 +78,7 @@ Result<> Still::wait_complete(const StillOptions& options) {
         }
         if (all_here) feeder_->update(replica, eye, 1e9); // meshed once, with all neighbors here
         if (all_here && feeder_->settled() && game_->server().stats().idle) break;
+        if (options.stop && *options.stop) return fail(ErrorCode::denied, "interrupted");
         if (seconds_since(start) > options.seconds_most)
             return fail(ErrorCode::limit, fmt::format("the world did not arrive within {} s", options.seconds_most));
         std::this_thread::sleep_for(std::chrono::microseconds(500));

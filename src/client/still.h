@@ -7,6 +7,7 @@
 #include "client/section_feeder.h"
 #include "platform/headless.h"
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -20,6 +21,7 @@ struct StillOptions {
     u32 view_distance = 12;  // chunks
     render::Quality quality = render::Quality::high;
     double seconds_most = 600; // for the world to arrive
+    const std::atomic<bool>* stop = nullptr; // where it turns true, opening ends with an error
 };
 
 struct StillTimes {

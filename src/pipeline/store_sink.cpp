@@ -27,7 +27,10 @@ Result<> StoreSink::level(const LevelInfo& info, const std::string& source) {
     if (info.spawn) level_.spawn.at = *info.spawn;
     if (info.spawn_dimension == "minecraft:the_nether") level_.spawn.dimension = DimensionId(1);
     if (info.spawn_dimension == "minecraft:the_end") level_.spawn.dimension = DimensionId(2);
-    return {};
+    SaveBatch batch;
+    batch.level = level_;
+    batch.level->unfinished = true;
+    return records_.save(batch);
 }
 
 Result<> StoreSink::dimension(const DimensionInfo& info) {
@@ -37,6 +40,7 @@ Result<> StoreSink::dimension(const DimensionInfo& info) {
 }
 
 Result<> StoreSink::put_columns(std::vector<ImportedColumn> batch) {
+    if (options_.stop && *options_.stop) return fail(ErrorCode::denied, "interrupted");
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return error_ || waiting_.size() < options_.columns_waiting_most; });
     if (error_) return tl::unexpected(*error_);

@@ -5,6 +5,7 @@
 #include "pipeline/import.h"
 #include "store/world_records.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -15,6 +16,7 @@ namespace vitrail {
 struct StoreSinkOptions {
     u32 columns_a_batch = 256;      // one transaction
     u32 columns_waiting_most = 512; // put_columns waits beyond it
+    const std::atomic<bool>* stop = nullptr; // where it turns true, the import ends with an error
 };
 
 class StoreSink : public ImportSink {
@@ -25,6 +27,7 @@ public:
 
     StateTable& states() override { return records_.states(); }
     Result<BiomeId> biome(std::string_view name) override { return records_.biomes().intern(name); }
+    // Keeps the level as unfinished at once: an import that is killed leaves a world that says so.
     Result<> level(const LevelInfo& level, const std::string& source) override;
     Result<> dimension(const DimensionInfo& info) override;
     // Errors: the store's, from any earlier batch.

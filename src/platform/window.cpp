@@ -6,6 +6,9 @@
 
 namespace vitrail::platform {
 
+static constexpr const char* kNoDisplay =
+    "no display for a window (DISPLAY and WAYLAND_DISPLAY are not set or do not answer)";
+
 static SDL_Window* sdl(void* window) {
     return static_cast<SDL_Window*>(window);
 }
@@ -14,15 +17,26 @@ static tl::unexpected<Error> no_window(const char* what) {
     return fail(ErrorCode::not_found, fmt::format("{}: {}", what, SDL_GetError()));
 }
 
+static bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value;
+}
+
 Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
     SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return no_window("no display for a window");
+    // Without this variable no Wayland display can be reached, and its library would print lines of its own.
+    if (!is_set("XDG_RUNTIME_DIR") && !is_set("SDL_VIDEODRIVER"))
+        SDL_SetHintWithPriority(SDL_HINT_VIDEODRIVER, "x11,KMSDRM", SDL_HINT_OVERRIDE);
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) {
+        if (is_set("SDL_VIDEODRIVER")) return no_window("no display for a window");
+        return fail(ErrorCode::not_found, kNoDisplay);
+    }
     std::unique_ptr<Window> made(new Window);
     made->sdl_started_ = true;
     // SDL falls back to drivers that show nothing; nobody could see that window unless he asked for it.
     const std::string driver = SDL_GetCurrentVideoDriver();
-    if ((driver == "offscreen" || driver == "dummy" || driver == "evdev") && !std::getenv("SDL_VIDEODRIVER"))
-        return fail(ErrorCode::not_found, "no display for a window (DISPLAY and WAYLAND_DISPLAY are not set or do not answer)");
+    if ((driver == "offscreen" || driver == "dummy" || driver == "evdev") && !is_set("SDL_VIDEODRIVER"))
+        return fail(ErrorCode::not_found, kNoDisplay);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);

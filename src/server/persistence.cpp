@@ -51,6 +51,9 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shar
     open.read_only = options.read_only;
     VX_TRY_ASSIGN(world->records, WorldRecords::open(options.folder, registry, open));
     VX_TRY_ASSIGN(auto level, world->records->load_level());
+    if (level && level->unfinished)
+        return fail(ErrorCode::denied, fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again",
+                                                   options.folder, level->source));
     if (level)
         world->level = std::move(*level);
     else if (options.read_only)

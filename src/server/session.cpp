@@ -50,9 +50,9 @@ void hear(ServerWorld& world, Session& session, net::Hello& hello) {
     session.name = hello.name;
     session.view_distance = std::min(hello.view_distance, world.options.view_distance_most);
     if (auto restored = restore_player(world, session); !restored) {
+        if (world.options.start) return drop(session, restored.error().message);
         log_error(fmt::format("player {}: {}", session.name, restored.error().message));
-        return drop(session,
-                    world.options.start ? restored.error().message : "your player cannot be read from the world");
+        return drop(session, "your player cannot be read from the world");
     }
     session.joined = true;
     if (hello.content_hash != world.content_hash)

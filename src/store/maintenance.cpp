@@ -83,6 +83,8 @@ Result<VerifyReport> verify_world(const std::string& folder) {
     };
     if (const auto sound = store.check(); !sound) finding(sound.error().message);
     find_lost_names(*world, report);
+    if (const auto level = world->load_level(); level && *level && (*level)->unfinished)
+        finding(fmt::format("this is an unfinished import of {}: if it no longer runs, import it again", (*level)->source));
     const DecodeLimits limits = world->decode_limits();
     for (u8 t = 0; t < u8(Table::count); ++t) {
         const Table table = Table(t);

@@ -4,7 +4,7 @@ namespace vitrail::stored {
 
 Level to_stored(const LevelRecord& v) {
     return {v.name,       v.seed,      u32(v.spawn.dimension), v.spawn.at.x,   v.spawn.at.y, v.spawn.at.z, v.spawn_yaw,
-            v.time_ticks, v.generator, v.generator_version,    v.content_hash, v.source};
+            v.time_ticks, v.generator, v.generator_version,    v.content_hash, v.source, v.unfinished};
 }
 
 Dimension to_stored(const DimensionInfo& v) {
@@ -39,6 +39,7 @@ Result<LevelRecord> from_stored(const Level& v) {
     out.generator_version = v.generator_version;
     out.content_hash = v.content_hash;
     out.source = v.source;
+    out.unfinished = v.unfinished;
     return out;
 }
 

@@ -26,6 +26,7 @@ struct Level { // meta "level"
     u32 generator_version = 0;
     u64 content_hash = 0;
     std::string source;
+    bool unfinished = false;
     static constexpr auto fields = std::tuple{field<1>("name", &Level::name, {.most = 1024}),
                                               field<2>("seed", &Level::seed),
                                               field<3>("spawn_dimension", &Level::spawn_dimension),
@@ -37,7 +38,8 @@ struct Level { // meta "level"
                                               field<9>("generator", &Level::generator, {.most = 256}),
                                               field<10>("generator_version", &Level::generator_version),
                                               field<11>("content_hash", &Level::content_hash),
-                                              field<12>("source", &Level::source, {.most = 4096})};
+                                              field<12>("source", &Level::source, {.most = 4096}),
+                                              field<13>("unfinished", &Level::unfinished)};
 };
 
 struct Dimension { // dimension, by id

@@ -36,6 +36,7 @@ struct LevelRecord {
     u32 generator_version = 0;
     u64 content_hash = 0; // of the content it was last played with
     std::string source{}; // where it was imported from, for people
+    bool unfinished = false; // being imported: what is here is a part
 };
 
 struct ColumnRecord {
