@@ -30,8 +30,10 @@ static void take_screenshot(GameState& state) {
         std::copy_n(bottom_up.data() + row * (image.height - 1 - y), row, image.pixels.data() + row * y);
     std::error_code error;
     std::filesystem::create_directories(state.options.screenshot_folder, error);
-    const auto path =
-        state.options.screenshot_folder / fmt::format("vitrail-{:%Y%m%d-%H%M%S}.png", fmt::localtime(std::time(nullptr)));
+    const std::string stem = fmt::format("vitrail-{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr)));
+    std::filesystem::path path = state.options.screenshot_folder / (stem + ".png");
+    for (int i = 2; std::filesystem::exists(path, error) && i < 100; ++i) // several in one second
+        path = state.options.screenshot_folder / fmt::format("{}-{}.png", stem, i);
     const auto written = render::write_png(path.string(), image);
     say(state, written ? fmt::format("screenshot: {}", path.string()) : written.error().message);
 }

@@ -223,7 +223,7 @@ def daylight(name, part):
 def bars(name):
     t = sprite(name, .4)
     iron = ramp("#868890", .2, .18, 7)
-    for x in (4, 12, 20, 28):
+    for x in (0, 8, 16, 24, 32): # one in the middle, where a lone bar and the ends of a run stand
         m = (np.abs(X - x + .5) < 1.6)
         t.shade(m, iron, np.clip(.62 - .16 * (X - x + .5), 0, .99), h=1.4)
     for y in (3, 16, 28):

@@ -28,7 +28,7 @@ void main() {
     else if (e.w < near) e = mix(e, s, (near - e.w) / (s.w - e.w));
     vec2 direction = (e.xy / e.w - s.xy / s.w) * screen.xy;
     float size = max(length(direction), 1e-6);
-    vec2 side = vec2(-direction.y, direction.x) / size * screen.zw * max(screen.y / 540.0, 1.0);
+    vec2 side = vec2(-direction.y, direction.x) / size * screen.zw * max(screen.y / 420.0, 1.0);
     bool at_end = vertex == 1u || vertex == 2u || vertex == 4u;
     float sign = vertex == 0u || vertex == 1u || vertex == 3u ? 1.0 : -1.0;
     if (vertex == 3u) at_end = false;
