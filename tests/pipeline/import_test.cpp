@@ -178,6 +178,43 @@ TEST(Import, SkipsDamageAndGoesOn) {
     }
 }
 
+TEST(StoreSink, AnImportThatDoesNotEndSaysSo) {
+    const fs::path folder = fs::temp_directory_path() / ("vitrail_unfinished_" + std::to_string(::getpid()));
+    fs::remove_all(folder);
+    for (const bool to_the_end : {false, true}) {
+        auto records = WorldRecords::open(folder.string(), std::make_shared<BlockRegistry>(), {.create = true});
+        ASSERT_TRUE(records) << records.error().message;
+        {
+            StoreSink sink(**records);
+            LevelInfo info;
+            info.name = "Begun";
+            ASSERT_TRUE(sink.level(info, "somewhere"));
+            if (to_the_end) ASSERT_TRUE(sink.finish());
+        }
+        const auto level = (*records)->load_level();
+        ASSERT_TRUE(level && *level);
+        EXPECT_EQ((*level)->unfinished, !to_the_end);
+        EXPECT_EQ((*level)->source, "somewhere");
+    }
+    fs::remove_all(folder);
+}
+
+TEST(StoreSink, StopsWhenToldTo) {
+    const fs::path folder = fs::temp_directory_path() / ("vitrail_stopped_" + std::to_string(::getpid()));
+    fs::remove_all(folder);
+    {
+        auto records = WorldRecords::open(folder.string(), std::make_shared<BlockRegistry>(), {.create = true});
+        ASSERT_TRUE(records) << records.error().message;
+        std::atomic<bool> stop{false};
+        StoreSink sink(**records, {.stop = &stop});
+        ASSERT_TRUE(sink.level({}, "somewhere"));
+        EXPECT_TRUE(sink.put_columns({}));
+        stop = true;
+        EXPECT_FALSE(sink.put_columns({}));
+    }
+    fs::remove_all(folder);
+}
+
 TEST(StoreSink, KeepsAnImportInAWorldFolder) {
     const fs::path source = test::fixtures() / "worlds" / "anvil-1.8-to-1.21" / "1.20.6";
     VX_NEED_FIXTURE(source);

@@ -2,6 +2,7 @@
 
 #include "base/rng.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace vitrail {
@@ -131,8 +132,8 @@ TEST(ChunkCodec, SizeIsRefusedBeforeItIsAllocated) {
 
 TEST(ChunkCodec, BadSectionsAreDamage) {
     auto record = [](std::initializer_list<u8> body) {
-        Bytes out{1};
-        out.insert(out.end(), body);
+        Bytes out(1 + body.size(), 1);
+        std::copy(body.begin(), body.end(), out.begin() + 1); // insert() makes g++ 12 see a bound passed that is not
         return out;
     };
     Bytes two_of_three = record({1, 0x80 | 4, 8, 3, 0, 1, 2}); // palette of three, 1024 bytes of indices
