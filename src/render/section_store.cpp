@@ -3,7 +3,9 @@
 #include "base/assert.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <epoxy/gl.h>
+#include <tuple>
 
 namespace vitrail::render {
 
@@ -115,6 +117,24 @@ u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
         order[i] = {~distance2, i}; // far first; equal ones keep the mesher's order
     }
     std::sort(order.begin(), order.end());
+    // Centers tell little of faces that lie one over the other and were merged differently, as water under ice. Parallel
+    // faces have an exact order, that of their planes: they share the places that the centers gave them in that order.
+    std::vector<u32> places;
+    std::vector<std::tuple<i32, u32, u32>> parallel; // plane, place, quad
+    for (u32 axis = 0; axis < 3; ++axis) {
+        places.clear(), parallel.clear();
+        for (u32 place = 0; place < count; ++place) {
+            const Quad q = section.translucent[order[place].second];
+            if (q.is_model() || u32(q.face()) >> 1 != axis) continue;
+            const u32 cell = axis == 0 ? q.x() : axis == 1 ? q.y() : q.z();
+            const i32 plane = i32(cell) * 2 + (u32(q.face()) & 1 ? 2 : 0);
+            places.push_back(place);
+            parallel.emplace_back(-std::abs(plane - eye[axis]), place, order[place].second);
+        }
+        std::sort(parallel.begin(), parallel.end());
+        for (std::size_t i = 0; i < places.size(); ++i)
+            order[places[i]].second = std::get<2>(parallel[i]);
+    }
     std::vector<Quad> sorted(count);
     for (u32 i = 0; i < count; ++i)
         sorted[i] = section.translucent[order[i].second];

@@ -131,6 +131,14 @@ TEST_F(RendererTest, TranslucentQuadsAreSorted) {
         mesh_of(QuadPass::translucent, {{4, wall(4, Face::north, green)}, {5, wall(3, Face::south, green)}}));
     EXPECT_GT(look(-10, 0), 30);
     EXPECT_LT(look(40, 180), -30);
+    // A small sheet below a large one, its center nearer to the eye: water under ice.
+    renderer->clear_sections();
+    renderer->set_section(
+        {0, 0, 0}, {},
+        mesh_of(QuadPass::translucent, {{3, Quad::cube({0, 9, 0}, 16, 16, Face::up, 255, green, TintKind::none, 0)},
+                                        {3, Quad::cube({0, 8, 0}, 16, 4, Face::up, 255, red, TintKind::none, 0)}}));
+    const Image sheets = draw(*renderer, bench::SampleScene::frame(33, 33, eye_at(8, 24, -20), 0, 33, 8));
+    EXPECT_LT(int(sheets.at(16, 16)[0]) - int(sheets.at(16, 16)[1]), -30);
 }
 
 TEST_F(RendererTest, ResizesAtAnyTime) {
