@@ -16,7 +16,7 @@ vec3 shade(vec3 albedo, vec3 n, vec4 light, float ao, float emission, float roug
     vec3 block = light.rgb * light.rgb * (0.35 + 0.65 * light.rgb) * vec3(1.45, 1.22, 0.98);
     float strongest = max(max(block.r, block.g), block.b);
     block *= mix(vec3(1.12, 0.86, 0.60), vec3(1.0), min(strongest, 1.0));
-    sum += (block * 1.35 + vec3(0.0080, 0.0085, 0.0100)) * ao;
+    sum += (block * 1.35 + vec3(0.0200, 0.0210, 0.0240)) * ao; // the last: what eyes used to the dark still see
 #ifdef HIGH
     // A gloss for what is smooth: Blinn-Phong with energy kept roughly.
     vec3 halfway = normalize(light_direction.xyz - towards);
