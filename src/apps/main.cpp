@@ -165,7 +165,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "vitrail: %s\n", first_line(error.what()).c_str());
         return 2;
     }
-    set_log_level(verbose ? LogLevel::debug : LogLevel::info);
+    // Who draws or imports wants to see what went wrong, who serves also what goes on.
+    set_log_level(verbose ? LogLevel::debug : app.got_subcommand("serve") ? LogLevel::info : LogLevel::warning);
     for (const Command& command : commands) {
         if (!command.app->parsed()) continue;
         return exit_status("vitrail", command.run);
