@@ -2,6 +2,7 @@
 
 #include "scene/sky.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vitrail::client {
@@ -37,6 +38,8 @@ scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension,
     view.rotation = view_rotation(pose.yaw_deg * kDegree, pose.pitch_deg * kDegree);
     view.fov_y = pose.fov_deg * kDegree;
     view.underwater = eye_in_liquid(dimension, pose.eye.at);
+    const float sky = std::min(float(dimension.light_at(block_of(pose.eye.at)).sky()) / 8.0f, 1.0f);
+    view.open_air = dimension.info().has_sky ? sky * sky : 1.0f;
     frame.views.push_back(view);
     return frame;
 }

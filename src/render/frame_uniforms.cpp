@@ -32,7 +32,7 @@ FrameUniforms make_frame_uniforms(const scene::FrameView& frame, bool background
     u.moon_direction = with(sky.moon_direction, 0);
     u.light_direction = with(sky.sun_direction.y >= 0 ? sky.sun_direction : sky.moon_direction, 0);
     u.sun_light = with(sky.sun_light, 0);
-    u.ambient = with(sky.ambient, 0);
+    u.ambient = with(sky.ambient, frame.views.empty() ? 1.0f : frame.views[0].open_air);
     u.zenith = with(sky.zenith, 0);
     u.horizon = with(sky.horizon, 0);
     u.glow = with(sky.glow, 0);

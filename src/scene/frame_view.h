@@ -20,6 +20,7 @@ struct View {
     u8 parent = 0;          // view it is seen from
     bool mirrored = false;  // winding turns
     bool underwater = false; // the eye is inside a liquid
+    float open_air = 1;     // 0..1, of view 0: how open to the sky the eye stands; air in the dark does not shine
 };
 
 // Light and color of the sky, linear RGB, from the time of day (sky.h).

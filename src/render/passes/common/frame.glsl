@@ -13,7 +13,7 @@ layout(std140, binding = 0) uniform Frame {
     vec4 moon_direction;
     vec4 light_direction; // of the direct light: sun or moon
     vec4 sun_light;
-    vec4 ambient;
+    vec4 ambient;         // w: how open to the sky the eye stands
     vec4 zenith;
     vec4 horizon;
     vec4 glow;

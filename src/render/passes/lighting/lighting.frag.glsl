@@ -28,5 +28,5 @@ void main() {
     vec3 n = normal_from_bytes(surface.xy);
     float roughness = float(surface.w >> 4) * (1.0 / 15.0), emission = float(surface.w & 15u) * (1.0 / 15.0);
     vec3 color = shade(linear_from_srgb(albedo.rgb), n, light, albedo.a, emission, roughness, towards);
-    o_color = vec4(apply_fog(color, away, towards, view.ray_up.w), 1.0);
+    o_color = vec4(apply_fog(color, away, towards, view.ray_up.w, light.a), 1.0);
 }

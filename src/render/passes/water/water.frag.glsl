@@ -85,7 +85,7 @@ void main() {
     vec3 color = body * own * (1.0 - shine) + reflected * shine;
     // What lies behind has its fog already; the surface's own light gets the share that it covers.
     vec3 covered = 1.0 - clear;
-    vec3 fogged = apply_fog(color / max(covered, vec3(1e-3)), away, towards, view.ray_up.w) * covered;
+    vec3 fogged = apply_fog(color / max(covered, vec3(1e-3)), away, towards, view.ray_up.w, light.a) * covered;
     o_color = vec4(fogged, 1.0);
     o_through = vec4(clear, 0.0);
 }
