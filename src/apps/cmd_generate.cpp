@@ -3,6 +3,8 @@
 #include "base/clock.h"
 #include "jobs/thread_pool.h"
 #include "pipeline/chunk_source.h"
+#include "pipeline/column_keeper.h"
+#include "pipeline/new_world.h"
 #include "script/content_loader.h"
 #include "terrain/generator.h"
 
@@ -36,73 +38,6 @@ Result<Area> parse_area(const std::string& text) {
     return area;
 }
 
-// Saves generated columns in batches, each one transaction.
-class Keeper {
-public:
-    static Result<std::unique_ptr<Keeper>> open(const std::string& folder, u64 seed, std::shared_ptr<const BlockRegistry> registry) {
-        auto keeper = std::make_unique<Keeper>();
-        VX_TRY_ASSIGN(keeper->records_, WorldRecords::open(folder, registry, {.create = true}));
-        VX_TRY_ASSIGN(const auto level, keeper->records_->load_level());
-        if (level && level->unfinished)
-            return fail(ErrorCode::denied, fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again", folder, level->source));
-        if (level && (level->seed != seed || level->generator != "hills"))
-            return fail(ErrorCode::invalid_argument,
-                        fmt::format("{} is a world of seed {} and generator '{}' already", folder, level->seed, level->generator));
-        if (!level) {
-            SaveBatch batch;
-            LevelRecord fresh;
-            fresh.name = "World";
-            fresh.seed = seed;
-            fresh.generator = "hills";
-            fresh.generator_version = ChunkSource::generator_version("hills");
-            fresh.spawn = {DimensionId::overworld, spawn_point(seed)};
-            batch.level = fresh;
-            batch.dimensions.push_back(DimensionInfo{});
-            VX_TRY(keeper->records_->save(batch));
-        }
-        return keeper;
-    }
-    StateTable& states() { return records_->states(); }
-    BiomeTable& biomes() { return records_->biomes(); }
-    Result<> keep(ColumnPos at, GeneratedColumn& column) {
-        std::lock_guard lock(mutex_);
-        for (std::size_t i = 0; i < column.chunks.size(); ++i)
-            batch_.chunks.push_back({DimensionId::overworld, {at.x, kTerrainMinY / 16 + i32(i), at.z},
-                                     std::make_shared<Chunk>(std::move(column.chunks[i]))});
-        ColumnRecord record;
-        record.heights.above = column.heights;
-        record.generated = true;
-        batch_.columns.push_back({DimensionId::overworld, at, record});
-        return batch_.columns.size() >= 64 ? flush_locked() : Result<>{};
-    }
-    Result<> flush() {
-        std::lock_guard lock(mutex_);
-        return flush_locked();
-    }
-
-private:
-    Result<> flush_locked() {
-        const SaveBatch batch = std::exchange(batch_, {});
-        return batch.empty() ? Result<>{} : records_->save(batch);
-    }
-    std::unique_ptr<WorldRecords> records_;
-    std::mutex mutex_;
-    SaveBatch batch_;
-};
-
-Result<TerrainPalette> make_palette(StateTable& states, BiomeTable& biomes) {
-    TerrainPalette palette;
-    for (u32 i = 0; i < kTerrainBlockCount; ++i) {
-        VX_TRY_ASSIGN(const BlockState state, parse_block_state(kTerrainBlockNames[i]));
-        VX_TRY_ASSIGN(palette.blocks[i], states.intern_with_defaults(state));
-        palette.takes_light[i] = states.light_data()[u32(palette.blocks[i])].opacity > 0;
-    }
-    for (u32 i = 0; i < kTerrainBiomeCount; ++i) {
-        VX_TRY_ASSIGN(palette.biomes[i], biomes.intern(kTerrainBiomeNames[i]));
-    }
-    return palette;
-}
-
 } // namespace
 
 Result<> run_generate(const GenerateOptions& options) {
@@ -121,13 +56,13 @@ Result<> run_generate(const GenerateOptions& options) {
     VX_TRY_ASSIGN(const auto registry, load_base_content());
 
     const std::atomic<bool>& stop = stop_on_signals(); // before the first byte is written
-    std::unique_ptr<Keeper> keeper;
+    std::unique_ptr<ColumnKeeper> keeper;
     StateTable own_states(registry);
     BiomeTable own_biomes;
     if (!options.world.empty()) {
         std::error_code ignored;
         const bool existed = std::filesystem::exists(options.world, ignored);
-        auto opened = Keeper::open(options.world, options.seed, registry);
+        auto opened = ColumnKeeper::open(options.world, options.seed, registry);
         if (!opened) {
             if (!existed && opened.error().code != ErrorCode::busy) std::filesystem::remove_all(options.world, ignored);
             return tl::unexpected(opened.error());
@@ -135,7 +70,8 @@ Result<> run_generate(const GenerateOptions& options) {
         keeper = std::move(*opened);
     }
     VX_TRY_ASSIGN(const TerrainPalette palette,
-                  make_palette(keeper ? keeper->states() : own_states, keeper ? keeper->biomes() : own_biomes));
+                  make_terrain_palette(keeper ? keeper->records().states() : own_states,
+                                       keeper ? keeper->records().biomes() : own_biomes));
     const u64 start = now_ns();
     std::atomic<u64> hash{0}, filled{0};
     std::mutex error_mutex;

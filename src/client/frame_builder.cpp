@@ -1,13 +1,12 @@
 #include "client/frame_builder.h"
 
+#include "math/angle.h"
 #include "scene/sky.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace vitrail::client {
-
-static constexpr float kDegree = 3.14159265358979f / 180.0f;
 
 WorldPos interpolate(WorldPos before, WorldPos after, float alpha) {
     const Vec3 step = view_from(before, after).v;
@@ -35,8 +34,8 @@ scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension,
     frame.seconds = std::fmod(seconds, 65536.0f);
     scene::View view;
     view.eye = pose.eye;
-    view.rotation = view_rotation(pose.yaw_deg * kDegree, pose.pitch_deg * kDegree);
-    view.fov_y = pose.fov_deg * kDegree;
+    view.rotation = view_rotation(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree);
+    view.fov_y = pose.fov_deg * kRadiansADegree;
     view.underwater = eye_in_liquid(dimension, pose.eye.at);
     const float sky = std::min(float(dimension.light_at(block_of(pose.eye.at)).sky()) / 8.0f, 1.0f);
     view.open_air = dimension.info().has_sky ? sky * sky : 1.0f;

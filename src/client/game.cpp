@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "client/frame_builder.h"
 #include "gfx/context.h"
+#include "math/angle.h"
 
 #include <algorithm>
 #include <chrono>
@@ -128,8 +129,7 @@ static void update_world(GameState& state, float seconds) {
     for (const auto& notice : replica.take_notices())
         say(state, notice.from.empty() ? notice.text : fmt::format("{}: {}", notice.from, notice.text));
     const CameraPose pose = camera(state);
-    constexpr float degree = 3.14159265358979f / 180.0f;
-    state.hit = pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * degree, pose.pitch_deg * degree), kReach);
+    state.hit = pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree), kReach);
     act_on_world(state);
     state.feeder->update(replica, block_of(pose.eye.at), kUploadBudgetMs);
 }
@@ -209,8 +209,8 @@ Result<> run_game(const GameOptions& options, std::shared_ptr<const BlockRegistr
     Result<> played;
     if (ready) {
         fill_hotbar(state);
-        state.yaw_deg = state.game->replica().body().yaw * 57.29577951f;
-        state.pitch_deg = state.game->replica().body().pitch * 57.29577951f;
+        state.yaw_deg = state.game->replica().body().yaw * kDegreesARadian;
+        state.pitch_deg = state.game->replica().body().pitch * kDegreesARadian;
         set_paused(state, false);
         played = play(state);
     }

@@ -1,5 +1,7 @@
 #include "client/game.h"
 
+#include "math/angle.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -107,10 +109,9 @@ void handle_events(GameState& state, const std::vector<platform::InputEvent>& ev
 }
 
 MoveCommand move_input(GameState& state) {
-    constexpr float degree = 3.14159265358979f / 180.0f;
     MoveCommand command;
-    command.yaw = state.yaw_deg * degree;
-    command.pitch = state.pitch_deg * degree;
+    command.yaw = state.yaw_deg * kRadiansADegree;
+    command.pitch = state.pitch_deg * kRadiansADegree;
     if (state.paused || state.block_list_open) return command;
     auto down = [&](Key key) { return state.held.contains(key); };
     command.forward = i8(down(Key::w) - down(Key::s));

@@ -1,5 +1,7 @@
 #include "pipeline/chunk_source.h"
 
+#include "pipeline/new_world.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -50,14 +52,7 @@ Result<std::unique_ptr<ChunkSource>> ChunkSource::create(WorldRecords& records, 
         return fail(ErrorCode::invalid_argument, fmt::format("unknown terrain generator '{}'", options.generator));
     auto source = std::unique_ptr<ChunkSource>(new ChunkSource(records, saves, std::move(options)));
     if (source->options_.generator.empty()) return source;
-    for (u32 i = 0; i < kTerrainBlockCount; ++i) {
-        VX_TRY_ASSIGN(BlockState state, parse_block_state(kTerrainBlockNames[i]));
-        VX_TRY_ASSIGN(source->palette_.blocks[i], records.states().intern_with_defaults(std::move(state)));
-        source->palette_.takes_light[i] = records.states().light_data()[u32(source->palette_.blocks[i])].opacity > 0;
-    }
-    for (u32 i = 0; i < kTerrainBiomeCount; ++i) {
-        VX_TRY_ASSIGN(source->palette_.biomes[i], records.biomes().intern(kTerrainBiomeNames[i]));
-    }
+    VX_TRY_ASSIGN(source->palette_, make_terrain_palette(records.states(), records.biomes()));
     return source;
 }
 

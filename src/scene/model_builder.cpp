@@ -1,5 +1,7 @@
 #include "scene/model_builder.h"
 
+#include "math/angle.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,7 +64,7 @@ void ModelBuilder::reset() {
 ModelBuilder::Point ModelBuilder::place(Point p, bool direction) const {
     const float c = direction ? 0.0f : 8.0f; // turns are about the middle; directions have none
     if (tilt_ != 0) {
-        const float a = tilt_ * 3.14159265f / 180.0f, s = std::sin(a), k = std::cos(a);
+        const float a = tilt_ * kRadiansADegree, s = std::sin(a), k = std::cos(a);
         const float cy = direction ? 0 : tilt_y_, cz = direction ? 0 : tilt_z_;
         const float y = p.y - cy, z = p.z - cz;
         p.y = cy + y * k + z * s;

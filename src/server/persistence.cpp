@@ -2,7 +2,9 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "math/angle.h"
 #include "net/registry_codec.h"
+#include "pipeline/new_world.h"
 #include "server/interest.h"
 
 #include <algorithm>
@@ -13,28 +15,10 @@ namespace vitrail::server {
 
 namespace {
 
-constexpr float kDegrees = 57.29577951f; // a radian
-
-// A new world: its level record and dimensions, durable before anyone plays.
-Result<LevelRecord> make_level(WorldRecords& records, const ServerOptions& options, u64 content_hash) {
-    LevelRecord level;
-    level.name = options.name;
-    level.generator = options.generator;
-    level.generator_version = ChunkSource::generator_version(options.generator);
-    level.content_hash = content_hash;
-    level.time_ticks = 1000; // morning
-    if (options.seed)
-        level.seed = *options.seed;
-    else {
-        std::random_device device;
-        level.seed = u64(device()) << 32 | device();
-    }
-    level.spawn.at = options.generator.empty() ? BlockPos{0, 64, 0} : spawn_point(level.seed);
-    SaveBatch batch;
-    batch.level = level;
-    batch.dimensions.push_back(DimensionInfo{});
-    VX_TRY(records.save(batch));
-    return level;
+u64 seed_of_new_world(const ServerOptions& options) {
+    if (options.seed) return *options.seed;
+    std::random_device device;
+    return u64(device()) << 32 | device();
 }
 
 } // namespace
@@ -59,7 +43,8 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shar
     else if (options.read_only)
         return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
     else {
-        VX_TRY_ASSIGN(world->level, make_level(*world->records, options, world->content_hash));
+        VX_TRY_ASSIGN(world->level, make_new_level(*world->records, options.name, seed_of_new_world(options),
+                                                    options.generator, world->content_hash));
     }
     if (world->level.content_hash != world->content_hash) {
         world->level.content_hash = world->content_hash;
@@ -92,7 +77,7 @@ PlayerRecord player_record(const Session& session) {
     PlayerRecord record;
     record.name = session.name;
     record.at = session.body.feet;
-    record.yaw = session.body.yaw * kDegrees, record.pitch = session.body.pitch * kDegrees;
+    record.yaw = session.body.yaw * kDegreesARadian, record.pitch = session.body.pitch * kDegreesARadian;
     record.hotbar = session.hotbar;
     record.hotbar_slot = u8(session.hotbar_selected);
     record.flying = session.body.flying;
@@ -133,7 +118,7 @@ Result<> restore_player(ServerWorld& world, Session& session) {
     if (record && world.dimensions.contains(record->at.dimension)) {
         session.body.feet = {record->at.dimension, clamp_to_world(record->at.at)};
         session.body.flying = record->flying;
-        session.body.yaw = record->yaw / kDegrees, session.body.pitch = record->pitch / kDegrees;
+        session.body.yaw = record->yaw * kRadiansADegree, session.body.pitch = record->pitch * kRadiansADegree;
         session.hotbar = record->hotbar;
         session.hotbar_selected = record->hotbar_slot;
         return {};
@@ -143,7 +128,7 @@ Result<> restore_player(ServerWorld& world, Session& session) {
                                       : world.dimensions.begin()->first;
     session.body.feet.at = corner_of(world.level.spawn.at);
     session.body.feet.at.x += kFixedOne / 2, session.body.feet.at.z += kFixedOne / 2;
-    session.body.yaw = world.level.spawn_yaw / kDegrees;
+    session.body.yaw = world.level.spawn_yaw * kRadiansADegree;
     session.hotbar = world.registry->hotbar;
     if (session.hotbar.size() > 16) session.hotbar.resize(16);
     session.player_dirty = true;

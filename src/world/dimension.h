@@ -54,7 +54,7 @@ private:
 };
 
 // Applies the edits to loaded chunks (edits of absent chunks or outside the dimension are left out), publishes new
-// snapshots with the next revision, keeps heights. Light is not touched: light::relight consumes the ChangeSet.
+// snapshots with the next revision, keeps heights. Light is not touched: relight (light/relight.h) consumes the ChangeSet.
 ChangeSet apply(Dimension& dimension, const EditBatch& batch);
 
 // Recomputes the heights of a column from its loaded chunks.
