@@ -1,133 +1,30 @@
-// The terrain generator: a pure function of (seed, column), the same bit for bit whatever the compiler, thread count,
-// order of columns or device. Knows no block names: the caller interns kTerrainBlockNames / kTerrainBiomeNames and
-// passes plain ids. How to use it:
-//   TerrainPalette palette; for each role: palette.blocks[i] = intern(kTerrainBlockNames[i]); ... takes_light[i] =
-//   opacity > 0; GeneratedColumn column = generate_column(seed, {x, z}, palette); for each i: dimension.put({x,
-//   kTerrainMinY / 16 + i, z}, make_shared<Chunk>(move(column.chunks[i])));
+// TerrainGenerator: blocks of the endless world, a pure function of (description, seed, column): the same whatever the order
+// of columns, the number of threads, the compiler, the vector width or the device. How to use it:
+//
+//     VX_TRY_ASSIGN(auto generator, TerrainGenerator::create(description, seed));
+//     TerrainPalette palette = ...;   // pipeline/new_world.h: ids for generator->block_names(), biome_names()
+//     GeneratedColumn column = generator->generate({x, z}, palette);   // any thread
+//
+// Stages and their reach stand in terrain/tiles.h. Results of stages are kept for the columns around, up to a bound of bytes;
+// who schedules work himself asks `missing` what a column still needs and runs that first, each part on any thread.
 #pragma once
 
+#include "base/result.h"
+#include "terrain/compile/compile.h"
+#include "terrain/cpu/stages.h"
 #include "voxel/chunk.h"
-#include "voxel/coords.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace vitrail {
 
-inline constexpr i32 kTerrainMinY = -64, kTerrainMaxY = 320; // blocks are made for min <= y < max
-inline constexpr i32 kTerrainSeaLevel = 63;                  // the highest water block of the sea lies at 62
-inline constexpr i32 kTerrainSections = (kTerrainMaxY - kTerrainMinY) / kChunkSize;
-
-// The blocks terrain is made of, by role.
-enum class TerrainBlock : u8 {
-    air,
-    bedrock,
-    stone,
-    deepslate,
-    granite,
-    diorite,
-    andesite,
-    tuff,
-    dirt,
-    coarse_dirt,
-    grass_block,
-    snowy_grass_block,
-    podzol,
-    sand,
-    sandstone,
-    red_sand,
-    gravel,
-    clay,
-    water,
-    lava,
-    ice,
-    packed_ice,
-    snow_block,
-    snow,
-    coal_ore,
-    iron_ore,
-    copper_ore,
-    gold_ore,
-    redstone_ore,
-    lapis_ore,
-    diamond_ore,
-    emerald_ore,
-    deepslate_coal_ore,
-    deepslate_iron_ore,
-    deepslate_copper_ore,
-    deepslate_gold_ore,
-    deepslate_redstone_ore,
-    deepslate_lapis_ore,
-    deepslate_diamond_ore,
-    deepslate_emerald_ore,
-    oak_log,
-    oak_log_x,
-    oak_log_z,
-    oak_leaves,
-    birch_log,
-    birch_leaves,
-    spruce_log,
-    spruce_leaves,
-    short_grass,
-    tall_grass_lower,
-    tall_grass_upper,
-    fern,
-    large_fern_lower,
-    large_fern_upper,
-    dead_bush,
-    dandelion,
-    poppy,
-    cornflower,
-    oxeye_daisy,
-    azure_bluet,
-    allium,
-    lily_of_the_valley,
-    red_tulip,
-    brown_mushroom,
-    red_mushroom,
-    sugar_cane,
-    pumpkin,
-    cactus,
-    seagrass,
-    mossy_cobblestone,
-    lily_pad,
-    moss_block,
-    glow_lichen_down,
-    count
-};
-inline constexpr u32 kTerrainBlockCount = u32(TerrainBlock::count);
-// Block state texts (world/block_state.h), in enum order.
-extern const std::array<const char*, kTerrainBlockCount> kTerrainBlockNames;
-
-enum class TerrainBiome : u8 {
-    plains,
-    forest,
-    birch_forest,
-    taiga,
-    snowy_plains,
-    snowy_taiga,
-    desert,
-    meadow,
-    stony_peaks,
-    snowy_slopes,
-    jagged_peaks,
-    beach,
-    snowy_beach,
-    river,
-    ocean,
-    deep_ocean,
-    count
-};
-inline constexpr u32 kTerrainBiomeCount = u32(TerrainBiome::count);
-extern const std::array<const char*, kTerrainBiomeCount> kTerrainBiomeNames;
-
+// Ids of the generator's blocks and biomes in a world, in the order of its names.
 struct TerrainPalette {
-    std::array<StateId, kTerrainBlockCount> blocks{};
-    std::array<BiomeId, kTerrainBiomeCount> biomes{};
-    // Whether a block takes sky light (opacity above 0), for GeneratedColumn::heights. All but air and plants by
-    // default.
-    std::array<bool, kTerrainBlockCount> takes_light = default_takes_light();
-    static std::array<bool, kTerrainBlockCount> default_takes_light();
+    std::vector<StateId> blocks;
+    std::vector<BiomeId> biomes;
+    std::vector<u8> takes_light; // 1: opacity above 0, for GeneratedColumn::heights
 };
 
 struct GeneratedColumn {
@@ -136,21 +33,73 @@ struct GeneratedColumn {
     std::array<i32, 256> heights{};
 };
 
-GeneratedColumn generate_column(u64 seed, ColumnPos at, const TerrainPalette& palette);
-
-// Height of the ground (the y above the highest ground block, caves and plants left out) and the biome at a block
-// column.
-struct TerrainSurface {
-    i32 ground_y = 0;
-    TerrainBiome biome = TerrainBiome::plains;
-    bool under_water = false;
+enum class TerrainStage : u8 { land, ground, lattice, caves, features, blocks, count };
+inline constexpr const char* kTerrainStageNames[] = {"land", "ground", "lattice", "caves", "features", "blocks"};
+// One part of the work. ground: `at` is the least column of a zone of kZoneColumns^2.
+struct TerrainTask {
+    TerrainStage stage{};
+    ColumnPos at;
+    friend constexpr bool operator==(const TerrainTask&, const TerrainTask&) = default;
 };
-TerrainSurface terrain_surface(u64 seed, i32 x, i32 z);
+
+struct TerrainGeneratorOptions {
+    Isa isa = best_isa();
+    u64 cache_bytes_most = 96u << 20; // of stage results, the least recently used go
+};
+
+struct TerrainCacheStats {
+    u64 bytes = 0, hits = 0, misses = 0, dropped = 0;
+};
+
+class TerrainGenerator {
+public:
+    // Errors: those of compile_terrain.
+    static Result<std::shared_ptr<TerrainGenerator>> create(const TerrainDescription& description, u64 seed,
+                                                            TerrainGeneratorOptions options = {});
+    ~TerrainGenerator();
+
+    // All stages, those that are missing in this thread.
+    GeneratedColumn generate(ColumnPos at, const TerrainPalette& palette) const;
+    // The raw blocks before palettes (tests, maps, statistics); index x | z << 4 | y << 8.
+    std::unique_ptr<BlockTile> blocks(ColumnPos at) const;
+    // The surface without trees and caves, from stage results that are kept: cheap beside `generate`.
+    std::shared_ptr<const LandTile> land(ColumnPos at) const;
+    std::shared_ptr<const GroundTile> ground(ColumnPos at) const;
+    std::shared_ptr<const CaveTile> caves(ColumnPos at) const;
+    std::shared_ptr<const FeatureTile> features(ColumnPos at) const;
+
+    // What must run before `generate(at)` finds all other stages' results, in an order that works; empty when it does.
+    // Only parts whose own needs are met or stand earlier in the list.
+    void missing(ColumnPos at, std::vector<TerrainTask>& out) const;
+    // Runs one part and keeps its result; another thread that wants the same part waits for it. Its needs that are
+    // missing run too. Not for TerrainStage::blocks.
+    void run(TerrainTask task) const;
+
+    const TerrainTables& tables() const;
+    const std::vector<std::string>& block_names() const;
+    const std::vector<std::string>& biome_names() const; // surface biomes, then cave biomes
+    u64 seed() const;
+    TerrainCacheStats cache_stats() const;
+    void clear_caches() const;
+
+private:
+    struct State;
+    explicit TerrainGenerator(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+// Chunks and heights of a tile. Shared by the CPU and the CUDA backend.
+GeneratedColumn pack_column(const TerrainTables& tables, ColumnPos at, const GroundTile& ground, const CaveTile& caves,
+                            const BlockTile& tile, const TerrainPalette& palette);
+
+// Which surface biome a block column's materials come from (drawn by the weights), and its strongest one.
+u32 surface_biome_at(const TerrainTables& tables, const GroundTile& ground, ColumnPos at, i32 index);
+u32 strongest_biome(const TerrainTables& tables, const float* attributes, i32 stride);
 
 // A pretty, dry, open place near the origin: where the feet stand.
-BlockPos spawn_point(u64 seed);
+BlockPos spawn_point(const TerrainGenerator& generator);
 
-// Hash of all block states, for `generate --hash` and tests: equal columns have equal hashes.
+// Hash of all block states and biomes: equal columns have equal hashes.
 u64 column_hash(const GeneratedColumn& column);
 
 } // namespace vitrail
