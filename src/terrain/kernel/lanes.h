@@ -145,8 +145,9 @@ VX_HD typename L::F step_between(float a, float b, typename L::F v) {
     const typename L::F t = clamp01<L>((v - a) * (1.0f / (b - a)));
     return t * t * (3.0f - 2.0f * t);
 }
+// With edges of its own in each lane. Another name, because with one lane the two would be the same function with other bits.
 template <class L>
-VX_HD typename L::F step_between(typename L::F a, typename L::F b, typename L::F v) {
+VX_HD typename L::F step_between_lanes(typename L::F a, typename L::F b, typename L::F v) {
     const typename L::F t = clamp01<L>((v - a) / (b - a));
     return t * t * (3.0f - 2.0f * t);
 }
