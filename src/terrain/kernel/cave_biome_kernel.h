@@ -67,10 +67,16 @@ VX_HD_FN typename L::U pick_cave_biome(const TerrainTables& t, const GroundTile&
     return select(sum > L::f(0.0f), picked, L::u(0));
 }
 
-// The same for one block: of block column `index` (x | z << 4) of the column `at`.
+// The same for one block: of block column `index` (x | z << 4) of the column `at`. Within a stage<L> call
+// cave_biome_at<L>: the code for one lane too is then that build's own.
+template <class L>
+struct OneLane : ScalarLanes {};
+template <class L = ScalarLanes>
 VX_HD u32 cave_biome_at(const TerrainTables& t, const GroundTile& ground, const CaveTile& caves, ColumnPos at,
                         i32 index, i32 y) {
-    return pick_cave_biome<ScalarLanes>(t, ground, caves, thread_row(at, index), y);
+    const Row<ScalarLanes> r = thread_row(at, index);
+    const Row<OneLane<L>> row{r.x, r.z, r.index, r.dx, r.dz};
+    return pick_cave_biome<OneLane<L>>(t, ground, caves, row, y);
 }
 
 } // namespace vitrail
