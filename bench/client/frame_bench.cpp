@@ -37,10 +37,10 @@ client::StillOptions still_options(bench::Context& context, u32 view_distance) {
 
 void frame(bench::Context& context, u32 view_distance, bool memory) {
     const std::vector<std::filesystem::path> roots{std::filesystem::path(VITRAIL_SOURCE_DIR) / "content/base"};
-    const auto registry = load_content(roots);
-    if (!registry) return context.skip(registry.error().message);
+    const auto content = load_content(roots);
+    if (!content) return context.skip(content.error().message);
     const auto options = still_options(context, view_distance);
-    const auto still = client::Still::open(options, *registry);
+    const auto still = client::Still::open(options, content->registry);
     if (!still) return context.skip(still.error().message);
     // The eye turns a little each frame, as a player's does: what is culled and sorted must be found anew.
     float turned = 0;

@@ -7,13 +7,14 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace vitrail;
     const ContentFile file{"fuzz.lua", std::string(reinterpret_cast<const char*>(data), size)};
-    const auto registry = load_content_texts({&file, 1}, 300'000);
-    if (!registry) {
-        if (registry.error().message.empty()) std::abort();
+    const auto content = load_content_texts({&file, 1}, 300'000);
+    if (!content) {
+        if (content.error().message.empty()) std::abort();
         return 0;
     }
-    StateTable table(*registry);
-    for (const BlockDef& def : (*registry)->blocks()) {
+    const auto& registry = content->registry;
+    StateTable table(registry);
+    for (const BlockDef& def : registry->blocks()) {
         BlockState state{def.name, {}};
         for (const PropertyDef& p : def.properties)
             state.set(p.name, p.values.back());

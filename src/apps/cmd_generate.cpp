@@ -53,7 +53,8 @@ Result<> run_generate(const GenerateOptions& options) {
     if (options.columns.empty()) return fail(ErrorCode::invalid_argument, "generate wants --columns X0,Z0,X1,Z1 (or --list)");
     VX_TRY_ASSIGN(const Area area, parse_area(options.columns));
     if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
-    VX_TRY_ASSIGN(const auto registry, load_base_content());
+    VX_TRY_ASSIGN(const Content content, load_base_content());
+    const auto& registry = content.registry;
 
     const std::atomic<bool>& stop = stop_on_signals(); // before the first byte is written
     std::unique_ptr<ColumnKeeper> keeper;

@@ -6,6 +6,7 @@
 #include "jobs/thread_pool.h"
 #include "pipeline/import.h"
 #include "pipeline/store_sink.h"
+#include "script/content_loader.h"
 #include "store/world_records.h"
 #include "world/block_registry.h"
 
@@ -95,7 +96,8 @@ Result<> run_import(const ImportOptions& options) {
         VX_TRY_ASSIGN(const auto source, open_world_source(options.source));
         (void)source;
     }
-    VX_TRY_ASSIGN(const auto registry, load_base_content());
+    VX_TRY_ASSIGN(const Content content, load_base_content());
+    const auto& registry = content.registry;
     std::error_code error;
     const bool existed = fs::exists(options.world, error);
     if (error) return fail(ErrorCode::io, fmt::format("world {}: {}", options.world, error.message()));

@@ -38,7 +38,8 @@ Result<> run_play(const PlayOptions& options) {
     game.view_distance = options.view_distance;
     game.screenshot_folder = data_folder() / "screenshots";
     if (const auto path = client::settings_path()) game.settings_file = *path;
-    VX_TRY_ASSIGN(const auto registry, load_base_content());
+    VX_TRY_ASSIGN(const Content content, load_base_content());
+    const auto& registry = content.registry;
     return client::run_game(game, registry);
 }
 

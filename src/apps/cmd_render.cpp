@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "client/still.h"
 #include "gfx/context.h"
+#include "script/content_loader.h"
 #include "terrain/generator.h"
 #include "world/block_registry.h"
 
@@ -59,7 +60,8 @@ Result<> run_render(const RenderOptions& wanted) {
     still_options.pose.fov_deg = options.fov_deg;
     VX_TRY(check_writable(options.output));
     if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
-    VX_TRY_ASSIGN(const auto registry, load_base_content());
+    VX_TRY_ASSIGN(const Content content, load_base_content());
+    const auto& registry = content.registry;
     still_options.stop = &stop_on_signals(); // a passing world lies in a folder that must go
     VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, registry));
 

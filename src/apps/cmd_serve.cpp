@@ -1,5 +1,6 @@
 #include "apps/commands.h"
 
+#include "script/content_loader.h"
 #include "server/server.h"
 #include "world/block_registry.h"
 
@@ -15,7 +16,8 @@ namespace vitrail::apps {
 // honest `--port` says so.
 Result<> run_serve(const ServeOptions& options) {
     if (options.port != 0) return fail(ErrorCode::unsupported, "serve --port: joining over the network is not built yet");
-    VX_TRY_ASSIGN(const auto registry, load_base_content());
+    VX_TRY_ASSIGN(const Content content, load_base_content());
+    const auto& registry = content.registry;
     server::ServerOptions server_options;
     server_options.folder = options.world;
     server_options.create = false;

@@ -15,7 +15,7 @@
 #include <vector>
 
 namespace vitrail {
-class BlockRegistry;
+struct Content;
 }
 
 namespace vitrail::apps {
@@ -85,7 +85,7 @@ std::string one_line(std::string text);
 // The folder content/: $VITRAIL_CONTENT, beside the program, or the source tree it was built from. Errors: not_found.
 Result<std::filesystem::path> content_folder();
 // content/base, compiled. Errors: those of the scripts.
-Result<std::shared_ptr<BlockRegistry>> load_base_content();
+Result<Content> load_base_content();
 // "1,2,3" to numbers; exactly `count` of them. Errors: invalid_argument, naming the option.
 Result<std::vector<double>> parse_numbers(const std::string& option, const std::string& text, std::size_t count);
 // "854x480"; 16 to 16384 a side, at most 64 million pixels.

@@ -142,7 +142,7 @@ static Result<> draw(GameState& state) {
     if (state.hit && !state.hide_ui) {
         scene::Outline outline;
         outline.at = {replica.dimension().info().id, state.hit->block};
-        const Shape& shape = replica.states()->info(replica.dimension().state_at(state.hit->block)).shape;
+        const BlockShape& shape = replica.states()->info(replica.dimension().state_at(state.hit->block)).shape;
         for (const ShapeBox& box : shape.pick) {
             constexpr float unit = 1.0f / float(kShapeUnit);
             outline.boxes.push_back({{box.min[0] * unit, box.min[1] * unit, box.min[2] * unit},

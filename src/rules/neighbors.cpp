@@ -15,7 +15,7 @@ int axis_of(Face f) {
 }
 
 // Whether the boxes that reach `face` cover the rectangle lo..hi (1/64, both other axes) of it.
-bool covers(const Shape& shape, Face face, i32 lo, i32 hi) {
+bool covers(const BlockShape& shape, Face face, i32 lo, i32 hi) {
     const int a = axis_of(face), u = (a + 1) % 3, v = (a + 2) % 3;
     const bool far = int(face) % 2 == 1;
     // Box edges cut the rectangle into pieces; each must lie in some box.
@@ -185,11 +185,11 @@ Face counterclockwise(Face f) {
     return f == Face::up || f == Face::down ? f : opposite(clockwise(f));
 }
 
-bool is_sturdy(const Shape& shape, Face face) {
+bool is_sturdy(const BlockShape& shape, Face face) {
     return shape.full_cube || covers(shape, face, 0, kShapeUnit);
 }
 
-bool holds_center(const Shape& shape, Face face) {
+bool holds_center(const BlockShape& shape, Face face) {
     return shape.full_cube || covers(shape, face, kShapeUnit * 7 / 16, kShapeUnit * 9 / 16);
 }
 

@@ -43,9 +43,9 @@ Face clockwise(Face horizontal); // seen from above: north to east
 Face counterclockwise(Face horizontal);
 
 // Whether the face of a state can carry things: its collision boxes fill that side of the cell.
-bool is_sturdy(const Shape& shape, Face face);
+bool is_sturdy(const BlockShape& shape, Face face);
 // The same for what needs only the middle (torches and lanterns on fences and walls).
-bool holds_center(const Shape& shape, Face face);
+bool holds_center(const BlockShape& shape, Face face);
 
 // Whether what is at `at` has what it stands on, hangs from or belongs to. True for everything that needs nothing.
 bool is_supported(const EditView& view, BlockPos at);

@@ -15,7 +15,7 @@ std::optional<PickHit> pick_block(const Dimension& dimension, WorldPos eye, Vec3
     for (RayWalk walk(eye, direction, reach); walk.valid(); walk.step()) {
         const StateId id = dimension.state_at(walk.cell());
         if (id == StateId::air) continue;
-        const Shape& shape = dimension.states().info(id).shape;
+        const BlockShape& shape = dimension.states().info(id).shape;
         if (shape.pick.empty()) continue;
         const WorldPos corner = corner_of(walk.cell());
         const double from[3] = {double(eye.x - corner.x) * 0x1p-32, double(eye.y - corner.y) * 0x1p-32,

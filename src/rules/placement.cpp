@@ -198,7 +198,7 @@ void choose_state(Placing& p) {
     if (p.has("waterlogged")) p.state.set("waterlogged", water && p.state.get("type") != "double" ? "true" : "false");
 }
 
-bool body_in_way(const Shape& shape, BlockPos at, std::span<const BodyState> bodies) {
+bool body_in_way(const BlockShape& shape, BlockPos at, std::span<const BodyState> bodies) {
     for (const BodyState& body : bodies) {
         const FixedBox box = body_box(body.feet.at, height_of(body));
         for (const ShapeBox& b : shape.collision)

@@ -124,7 +124,7 @@ public:
         return {};
     }
 
-    std::shared_ptr<BlockRegistry> take() { return std::move(registry_); }
+    Content take() { return {std::move(registry_), nullptr}; }
 
 private:
     // Counted before anything is kept: a few lines of Lua can ask for much.
@@ -143,7 +143,7 @@ private:
         const auto over = [](const char* what, std::size_t most) {
             return fail(ErrorCode::limit, fmt::format("more than {} {}", most, what));
         };
-        if (registry_->blocks().size() >= kBlocksMost) return over("blocks", kBlocksMost);
+        if (registry_->blocks().size() >= kContentBlocksMost) return over("blocks", kBlocksMost);
         if (looks_ > kLooksMost) return over("looks of states", kLooksMost);
         if (boxes_ > kBoxesInAllMost) return over("boxes", kBoxesInAllMost);
         if (registry_->textures().size() + names.size() > kContentTexturesMost)
@@ -171,7 +171,7 @@ Result<std::string> read_text(const std::filesystem::path& path) {
 
 } // namespace
 
-Result<std::shared_ptr<BlockRegistry>> load_content_texts(std::span<const ContentFile> files, u64 instructions_most) {
+Result<Content> load_content_texts(std::span<const ContentFile> files, u64 instructions_most) {
     lua::SandboxLimits limits;
     limits.instructions_most = instructions_most;
     limits.source_bytes_most = kContentFileBytesMost;
@@ -192,12 +192,12 @@ Result<std::shared_ptr<BlockRegistry>> load_content_texts(std::span<const Conten
         hash = XXH3_64bits_withSeed(file.text.data(), file.text.size(), hash);
         VX_TRY(sandbox->run(file.text, file.name));
     }
-    std::shared_ptr<BlockRegistry> registry = builder.take();
-    registry->content_hash = hash;
-    return registry;
+    Content content = builder.take();
+    content.registry->content_hash = hash;
+    return content;
 }
 
-Result<std::shared_ptr<BlockRegistry>> load_content(std::span<const std::filesystem::path> roots) {
+Result<Content> load_content(std::span<const std::filesystem::path> roots) {
     std::vector<ContentFile> files;
     for (const std::filesystem::path& root : roots) {
         std::error_code error;
@@ -220,10 +220,10 @@ Result<std::shared_ptr<BlockRegistry>> load_content(std::span<const std::filesys
             files.push_back({(folder / path.filename()).string(), std::move(text)});
         }
     }
-    VX_TRY_ASSIGN(auto registry, load_content_texts(files));
+    VX_TRY_ASSIGN(Content content, load_content_texts(files));
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        registry->content_roots.push_back(root->string());
-    return registry;
+        content.registry->content_roots.push_back(root->string());
+    return content;
 }
 
 } // namespace vitrail

@@ -317,10 +317,10 @@ void add_kind(Boxes& out, const BlockLook& look, const BlockState& state) {
 
 } // namespace
 
-Shape make_shape(const BlockLook& look, const BlockState& state) {
+BlockShape make_shape(const BlockLook& look, const BlockState& state) {
     Boxes boxes;
     add_kind(boxes, look, state);
-    Shape shape;
+    BlockShape shape;
     shape.pick = std::move(boxes.pick);
     if (look.collision) shape.collision = std::move(boxes.collision);
     const std::vector<ShapeBox> unit{ShapeBox{}};

@@ -16,15 +16,15 @@ struct ShapeBox {
     friend bool operator==(const ShapeBox&, const ShapeBox&) = default;
 };
 
-struct Shape {
+struct BlockShape {
     std::vector<ShapeBox> collision; // empty: bodies pass
     std::vector<ShapeBox> pick;      // empty: rays pass
     bool full_cube = false;          // collision and outline are the unit cube
-    friend bool operator==(const Shape&, const Shape&) = default;
+    friend bool operator==(const BlockShape&, const BlockShape&) = default;
 };
 
 // The boxes of a state: kind and properties (Minecraft's names and values) decide; `boxes` serves ShapeKind::boxes.
-Shape make_shape(const BlockLook& look, const BlockState& state);
+BlockShape make_shape(const BlockLook& look, const BlockState& state);
 
 // Height of a liquid's surface in 1/64 block for Minecraft's level 0..15 (0 source, 1..7 falling off, 8+ falling: full).
 i32 liquid_height(i32 level);

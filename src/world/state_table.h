@@ -33,7 +33,7 @@ struct StateInfo {
     BlockState state;
     BlockId block = BlockId::unknown;
     const BlockLook* look = nullptr; // in the registry, variant resolved; valid as long as the table
-    Shape shape;
+    BlockShape shape;
     std::array<TextureId, 6> face_textures{}; // west, east, down, up, north, south; turned by axis and facing
     u8 liquid_level = 0;
     bool in_water = false; // stands in a source of water: waterlogged, or a plant that grows only there

@@ -26,7 +26,7 @@ struct GameTest : testing::Test {
         const std::vector<fs::path> roots{fs::path(VITRAIL_SOURCE_DIR) / "content/base"};
         auto loaded = load_content(roots);
         ASSERT_TRUE(loaded) << loaded.error().message;
-        registry = *loaded;
+        registry = loaded->registry;
     }
     void TearDown() override {
         game.reset();

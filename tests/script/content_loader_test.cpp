@@ -17,7 +17,8 @@ using testing::HasSubstr;
 
 Result<std::shared_ptr<BlockRegistry>> load(const std::string& text) {
     const ContentFile file{"test.lua", text};
-    return load_content_texts({&file, 1});
+    VX_TRY_ASSIGN(Content content, load_content_texts({&file, 1}));
+    return content.registry;
 }
 
 std::string error_of(const std::string& text) {
@@ -237,8 +238,8 @@ TEST(Content, LaterDefinitionsWinAndTheHashFollowsTheText) {
     const auto both = load_content_texts(files), first = load_content_texts({files, 1});
     ASSERT_TRUE(both && first);
     EXPECT_EQ(block_in(*both, "minecraft:x").look.hardness, 5);
-    EXPECT_NE((*both)->content_hash, (*first)->content_hash);
-    EXPECT_EQ((*both)->content_hash, (*load_content_texts(files))->content_hash);
+    EXPECT_NE(both->registry->content_hash, first->registry->content_hash);
+    EXPECT_EQ(both->registry->content_hash, load_content_texts(files)->registry->content_hash);
 }
 
 TEST(Content, OlderMaterialForm) {
@@ -259,8 +260,8 @@ TEST(Content, FoldersAreReadInOrder) {
     const std::filesystem::path roots[] = {root / "one", root / "two"};
     const auto one = load_content({roots, 1});
     ASSERT_TRUE(one) << one.error().message;
-    EXPECT_EQ(block_in(*one, "minecraft:x").look.hardness, 2);
-    EXPECT_THAT((*one)->content_roots, ElementsAre((root / "one").string()));
+    EXPECT_EQ(block_in(one->registry, "minecraft:x").look.hardness, 2);
+    EXPECT_THAT(one->registry->content_roots, ElementsAre((root / "one").string()));
     const auto two = load_content(roots);
     ASSERT_FALSE(two);
     EXPECT_THAT(two.error().message, testing::StartsWith("two/c.lua:1: minecraft:y: texture: expected"));
@@ -277,7 +278,7 @@ protected:
         const std::filesystem::path roots[] = {folder_};
         auto loaded = load_content(roots);
         ASSERT_TRUE(loaded) << loaded.error().message;
-        registry_ = *loaded;
+        registry_ = loaded->registry;
     }
     std::filesystem::path folder_ = std::filesystem::path(VITRAIL_SOURCE_DIR) / "content" / "base";
     std::shared_ptr<BlockRegistry> registry_;

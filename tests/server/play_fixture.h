@@ -21,7 +21,7 @@ inline std::shared_ptr<const BlockRegistry> base_content() {
         const std::filesystem::path roots[1] = {std::filesystem::path(VITRAIL_SOURCE_DIR) / "content/base"};
         auto loaded = load_content(roots);
         if (!loaded) throw std::runtime_error(loaded.error().message);
-        return *loaded;
+        return loaded->registry;
     }();
     return content;
 }

@@ -11,7 +11,7 @@ BlockState state(const char* text) {
     return *parse_block_state(text);
 }
 
-Shape shape_of(ShapeKind kind, const char* properties = "", bool collision = true) {
+BlockShape shape_of(ShapeKind kind, const char* properties = "", bool collision = true) {
     BlockLook look;
     look.shape = kind;
     look.collision = collision;
@@ -65,7 +65,7 @@ TEST(Shape, StairsAreHighWhereTheyFace) {
         {"[facing=west,shape=outer_right]", {true, false, false, false}},
     };
     for (const auto& c : cases) {
-        const Shape s = shape_of(ShapeKind::stairs, c.properties);
+        const BlockShape s = shape_of(ShapeKind::stairs, c.properties);
         EXPECT_EQ(s.collision, s.pick);
         for (int q = 0; q < 4; ++q) {
             const int x = q % 2 ? 48 : 16, z = q / 2 ? 48 : 16;
@@ -74,7 +74,7 @@ TEST(Shape, StairsAreHighWhereTheyFace) {
         }
         std::string top = c.properties;
         top.insert(top.size() - 1, ",half=top");
-        const Shape t = shape_of(ShapeKind::stairs, top.c_str());
+        const BlockShape t = shape_of(ShapeKind::stairs, top.c_str());
         for (int q = 0; q < 4; ++q) {
             const int x = q % 2 ? 48 : 16, z = q / 2 ? 48 : 16;
             EXPECT_EQ(covers(t.collision, x, 16, z), c.high[q]) << top << " quarter " << q;
@@ -84,7 +84,7 @@ TEST(Shape, StairsAreHighWhereTheyFace) {
 }
 
 TEST(Shape, FencesStopJumpsAndArePickedAsDrawn) {
-    const Shape fence = shape_of(ShapeKind::fence, "[east=true,north=false,south=false,west=true]");
+    const BlockShape fence = shape_of(ShapeKind::fence, "[east=true,north=false,south=false,west=true]");
     ASSERT_EQ(fence.collision.size(), 3u);
     for (const ShapeBox& b : fence.collision)
         EXPECT_EQ(b.max[1], 96);
@@ -93,7 +93,7 @@ TEST(Shape, FencesStopJumpsAndArePickedAsDrawn) {
     EXPECT_TRUE(covers(fence.pick, 0, 10, 32));
     EXPECT_TRUE(covers(fence.pick, 63, 10, 32));
     EXPECT_FALSE(covers(fence.pick, 32, 10, 0));
-    const Shape wall = shape_of(ShapeKind::wall, "[east=none,north=low,south=tall,up=false,west=none]");
+    const BlockShape wall = shape_of(ShapeKind::wall, "[east=none,north=low,south=tall,up=false,west=none]");
     EXPECT_EQ(wall.pick, (std::vector{box64(20, 0, 0, 44, 56, 32), box64(20, 0, 32, 44, 64, 64)}));
     EXPECT_EQ(shape_of(ShapeKind::pane).collision, std::vector{box64(28, 0, 28, 36, 64, 36)});
     EXPECT_EQ(shape_of(ShapeKind::fence_gate, "[facing=east]").collision, std::vector{box64(24, 0, 0, 40, 96, 64)});
@@ -115,11 +115,11 @@ TEST(Shape, PlantsTorchesAndLiquidsStopNobody) {
     for (const ShapeKind kind :
          {ShapeKind::cross, ShapeKind::crop, ShapeKind::torch, ShapeKind::wall_torch, ShapeKind::faces, ShapeKind::rail,
           ShapeKind::button, ShapeKind::lever, ShapeKind::pressure_plate, ShapeKind::sign, ShapeKind::wall_sign}) {
-        const Shape s = shape_of(kind);
+        const BlockShape s = shape_of(kind);
         EXPECT_TRUE(s.collision.empty()) << kShapeKindNames[std::size_t(kind)];
         EXPECT_FALSE(s.pick.empty()) << kShapeKindNames[std::size_t(kind)];
     }
-    EXPECT_EQ(shape_of(ShapeKind::liquid), Shape{});
+    EXPECT_EQ(shape_of(ShapeKind::liquid), BlockShape{});
     EXPECT_EQ(shape_of(ShapeKind::torch).pick.at(0), box64(24, 0, 24, 40, 40, 40));
     EXPECT_EQ(shape_of(ShapeKind::wall_torch, "[facing=east]").pick.at(0), box64(0, 12, 22, 20, 52, 42));
 }
@@ -142,7 +142,7 @@ TEST(Shape, BoxesOfContent) {
     look.shape = ShapeKind::boxes;
     look.boxes = {
         {1, 0, 1, 15, 16, 15, ""}, {0, 0, 8, 16, 16, 8, "leaf"}, {6, 6, 4, 10, 10, 20, ""}, {20, 0, 0, 30, 1, 1, ""}};
-    const Shape s = make_shape(look, state("test:block"));
+    const BlockShape s = make_shape(look, state("test:block"));
     EXPECT_EQ(s.collision, (std::vector{box64(4, 0, 4, 60, 64, 60), box64(24, 24, 16, 40, 40, 64)}));
     ASSERT_EQ(s.pick.size(), 3u);
     EXPECT_EQ(s.pick[1], box64(0, 0, 32, 64, 64, 33));
@@ -167,7 +167,7 @@ TEST(Shape, EveryBoxIsProper) {
         BlockState s{"test:block", {}};
         for (u32 n = rng.below(6); n > 0; --n)
             s.set(names[rng.below(std::size(names))], values[rng.below(std::size(values))]);
-        const Shape shape = make_shape(look, s);
+        const BlockShape shape = make_shape(look, s);
         if (!look.collision) {
             EXPECT_TRUE(shape.collision.empty());
         }
