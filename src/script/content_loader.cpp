@@ -143,7 +143,7 @@ private:
         const auto over = [](const char* what, std::size_t most) {
             return fail(ErrorCode::limit, fmt::format("more than {} {}", most, what));
         };
-        if (registry_->blocks().size() >= kContentBlocksMost) return over("blocks", kBlocksMost);
+        if (registry_->blocks().size() >= kContentBlocksMost) return over("blocks", kContentBlocksMost);
         if (looks_ > kLooksMost) return over("looks of states", kLooksMost);
         if (boxes_ > kBoxesInAllMost) return over("boxes", kBoxesInAllMost);
         if (registry_->textures().size() + names.size() > kContentTexturesMost)

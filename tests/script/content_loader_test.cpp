@@ -237,7 +237,7 @@ TEST(Content, LaterDefinitionsWinAndTheHashFollowsTheText) {
                                  {"b.lua", "define_block('x', { hardness = shared })"}};
     const auto both = load_content_texts(files), first = load_content_texts({files, 1});
     ASSERT_TRUE(both && first);
-    EXPECT_EQ(block_in(*both, "minecraft:x").look.hardness, 5);
+    EXPECT_EQ(block_in(both->registry, "minecraft:x").look.hardness, 5);
     EXPECT_NE(both->registry->content_hash, first->registry->content_hash);
     EXPECT_EQ(both->registry->content_hash, load_content_texts(files)->registry->content_hash);
 }
