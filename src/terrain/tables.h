@@ -186,6 +186,7 @@ struct TerrainTables {
     u8 traits[kBlocksMost] = {};
     // Caves (kernel/cave_kernel.h)
     Noise cave_cells, cave_warp_x, cave_warp_y, cave_warp_z, cave_width, cave_gate, ravine_warp, ravine_cells, ravine_depth, ravine_gate;
+    u16 shape_noise[2] = {}; // wobble of features' solids, 3-D: fine F3(.13), coarse F3(.035); kernel/shapes/builder.h
     RandomKey pick_key, cave_pick_key; // of the biome that a column's (a block's) materials come from
     Instruction instruction[kInstructionsMost];
     Noise noise[kNoisesMost];
