@@ -88,13 +88,9 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Chunks and heights of a tile. Shared by the CPU and the CUDA backend.
-GeneratedColumn pack_column(const TerrainTables& tables, ColumnPos at, const GroundTile& ground, const CaveTile& caves,
-                            const BlockTile& tile, const TerrainPalette& palette);
-
-// Which surface biome a block column's materials come from (drawn by the weights), and its strongest one.
-u32 surface_biome_at(const TerrainTables& tables, const GroundTile& ground, ColumnPos at, i32 index);
-u32 strongest_biome(const TerrainTables& tables, const float* attributes, i32 stride);
+// Chunks and heights of a tile: the last step of the CPU and the CUDA backend alike.
+void make_biome_tile(const TerrainTables& tables, const GroundTile& ground, const CaveTile& caves, BiomeTile& out);
+GeneratedColumn pack_column(const BlockTile& tile, const BiomeTile& biomes, const TerrainPalette& palette);
 
 // A pretty, dry, open place near the origin: where the feet stand.
 BlockPos spawn_point(const TerrainGenerator& generator);

@@ -7,7 +7,7 @@
 // lattice    0                -                                      LatticeTile (cave fields every 4 blocks)
 // caves      1 (+x, +z)       lattice of 4, own ground               CaveTile
 // features   0                own ground, caves                      FeatureTile (placements and their solids)
-// blocks     3                own ground, caves; features of 7 x 7   BlockTile (fill, draw, decorate)
+// blocks     3                own ground, caves; features of 7 x 7   BlockTile (fill, draw, decorate), BiomeTile
 #pragma once
 
 #include "math/vec.h"
@@ -95,6 +95,12 @@ struct FeatureTile {
 struct BlockTile {
     Block block[kTerrainHeight * kColumnCells]; // x | z << 4 | y << 8
     i32 top = 0;                                // nothing but air at or above
+};
+
+// Strongest biomes on the grid of 4 blocks, by index into the surface biomes, then the cave biomes: cell x / 4 | z / 4 << 2 |
+// y / 4 << 4.
+struct BiomeTile {
+    u8 biome[kTerrainHeight / 4 * 16];
 };
 
 // A row of a tile: lane l is the block column (x + l, z + row). On a GPU each thread is one lane and `index` its own.
