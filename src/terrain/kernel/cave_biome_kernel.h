@@ -4,7 +4,7 @@
 // one (kernel/cave_layers.h): neither takes the other's biome.
 #pragma once
 
-#include "terrain/tiles.h"
+#include "terrain/kernel/biome_kernel.h"
 
 namespace vitrail {
 
@@ -20,25 +20,13 @@ VX_HD_FN void cave_attributes_at(const TerrainTables& t, const GroundTile& groun
     }
 }
 
-// Product over the attributes; not normalized.
-template <class L>
-VX_HD_FN typename L::F cave_biome_product(const TerrainTables& t, u32 biome, const typename L::F* attributes) {
-    typename L::F w = L::f(1.0f);
-    for (u32 i = 0; i < t.cave_attributes; ++i) {
-        const i32 wants = t.cave_biome[biome].wants[i];
-        if (wants > 0) w = w * attributes[i];
-        if (wants < 0) w = w * (1.0f - attributes[i]);
-    }
-    return w;
-}
-
 // Weights of all cave biomes, their sum 1: out[0 .. t.cave_biomes). Where no biome wants the place, the first has it.
 template <class L>
 VX_HD_FN void cave_biome_weights(const TerrainTables& t, const typename L::F* attributes, typename L::F* out) {
     using F = typename L::F;
     F sum = L::f(0.0f);
     for (u32 i = 0; i < t.cave_biomes; ++i) {
-        out[i] = cave_biome_product<L>(t, i, attributes);
+        out[i] = wants_weight<L>(t.cave_biome[i].wants, t.cave_attributes, attributes);
         sum = sum + out[i];
     }
     const auto some = sum > L::f(0.0f);
@@ -58,7 +46,7 @@ VX_HD_FN typename L::U pick_cave_biome(const TerrainTables& t, const GroundTile&
     F upto[kCaveBiomesMost]; // sums of the weights so far
     F sum = L::f(0.0f);
     for (u32 i = 0; i < t.cave_biomes; ++i)
-        upto[i] = sum = sum + cave_biome_product<L>(t, i, attributes);
+        upto[i] = sum = sum + wants_weight<L>(t.cave_biome[i].wants, t.cave_attributes, attributes);
     // drawn < sum even after rounding, because unit_of stays 2^-24 below 1: a biome without weight is never drawn.
     const F drawn = unit_of(random_bits(t.cave_pick_key, row.block_x(), as_uint(y), row.block_z())) * sum;
     U picked = L::u(0);
