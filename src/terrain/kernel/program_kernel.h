@@ -6,6 +6,31 @@
 
 namespace vitrail {
 
+namespace program_detail {
+
+// Division; 0 where b is 0.
+template <class L>
+VX_HD typename L::F divide(typename L::F a, typename L::F b) {
+    const auto none = b == L::f(0.0f);
+    return select(none, L::f(0.0f), a / select(none, L::f(1.0f), b));
+}
+// Smoothstep between edges a and b; equal edges step at once.
+template <class L>
+VX_HD typename L::F smoothstep(typename L::F a, typename L::F b, typename L::F v) {
+    const typename L::F width = b - a;
+    const auto none = width == L::f(0.0f);
+    const typename L::F s = clamp01<L>((v - a) / select(none, L::f(1.0f), width));
+    return select(none, select(v < a, L::f(0.0f), L::f(1.0f)), s * s * (3.0f - 2.0f * s));
+}
+
+// A warp's blocks, so that whatever a program says, places stay where noise can be read.
+template <class L>
+VX_HD typename L::F within(typename L::F v) {
+    return greatest(least(v, L::f(4096.0f)), L::f(-4096.0f));
+}
+
+} // namespace program_detail
+
 // inputs: kInputs values (attributes, height), or null where the program reads none.
 template <class L>
 VX_HD_FN typename L::F run_program(const TerrainTables& t, Program program, const Spot<L>& place, const typename L::F* inputs) {
@@ -23,24 +48,14 @@ VX_HD_FN typename L::F run_program(const TerrainTables& t, Program program, cons
         case Op::add: r[in.to] = r[in.a] + r[in.b]; break;
         case Op::subtract: r[in.to] = r[in.a] - r[in.b]; break;
         case Op::multiply: r[in.to] = r[in.a] * r[in.b]; break;
-        case Op::divide: {
-            const auto none = r[in.b] == L::f(0.0f);
-            r[in.to] = select(none, L::f(0.0f), r[in.a] / select(none, L::f(1.0f), r[in.b]));
-            break;
-        }
+        case Op::divide: r[in.to] = program_detail::divide<L>(r[in.a], r[in.b]); break;
         case Op::least: r[in.to] = least(r[in.a], r[in.b]); break;
         case Op::greatest: r[in.to] = greatest(r[in.a], r[in.b]); break;
         case Op::absolute: r[in.to] = absolute<L>(r[in.a]); break;
         case Op::square_root: r[in.to] = square_root(greatest(r[in.a], L::f(0.0f))); break;
         case Op::negate: r[in.to] = -r[in.a]; break;
         case Op::power: r[in.to] = power_of<L>(r[in.a], r[in.b]); break;
-        case Op::smoothstep: {
-            const F width = r[in.b] - r[in.a];
-            const auto none = width == L::f(0.0f);
-            const F s = clamp01<L>((r[in.c] - r[in.a]) / select(none, L::f(1.0f), width));
-            r[in.to] = select(none, select(r[in.c] < r[in.a], L::f(0.0f), L::f(1.0f)), s * s * (3.0f - 2.0f * s));
-            break;
-        }
+        case Op::smoothstep: r[in.to] = program_detail::smoothstep<L>(r[in.a], r[in.b], r[in.c]); break;
         case Op::fractal2: r[in.to] = fractal2<L>(octaves, noise.octaves, p); break;
         case Op::fractal3: r[in.to] = fractal3<L>(octaves, noise.octaves, p); break;
         case Op::cell_distance: r[in.to] = worley2<L>(octaves[0], p).f1; break;
@@ -51,8 +66,8 @@ VX_HD_FN typename L::F run_program(const TerrainTables& t, Program program, cons
         }
         case Op::cell_random: r[in.to] = unit_of(worley2<L>(octaves[0], p).cell); break;
         case Op::warp:
-            p.dx = place.dx + r[in.a];
-            p.dz = place.dz + r[in.b];
+            p.dx = place.dx + program_detail::within<L>(r[in.a]);
+            p.dz = place.dz + program_detail::within<L>(r[in.b]);
             break;
         case Op::unwarp: p = place; break;
         }
