@@ -53,7 +53,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
         shape("kelp", 0, 20, 1,
               {{p::kelp::height_least, {"height_least", 4, 1, 20}}, {p::kelp::height_most, {"height_most", 20, 1, 20}}},
               {{p::kelp::stalk, "stalk"}, {p::kelp::tip, "tip"}}));
-    add(Shape::iceberg, shape("iceberg", 0, 110, 47,
+    add(Shape::iceberg, shape("iceberg", -64, 110, 47,
                               {{p::iceberg::radius_least, {"radius_least", 20, 6, 32}},
                                {p::iceberg::radius_most, {"radius_most", 32, 6, 32}}},
                               {{p::iceberg::ice, "ice"}, {p::iceberg::core, "core"}, {p::iceberg::snow, "snow"}}));
@@ -140,19 +140,19 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
         shape("palm", -2, 28, 22,
               {{p::palm::height_least, {"height_least", 9, 5, 18}}, {p::palm::height_most, {"height_most", 16, 5, 18}}},
               {VITRAIL_WOOD(palm)}));
-    add(Shape::cactus, shape("cactus", 0, 16, 6,
+    add(Shape::cactus, shape("cactus", -3, 16, 6,
                              {{p::cactus::height_least, {"height_least", 7, 2, 15}},
                               {p::cactus::height_most, {"height_most", 13, 2, 15}},
                               {p::cactus::arms_least, {"arms_least", 0, 0, 4}},
                               {p::cactus::arms_most, {"arms_most", 3, 0, 4}}},
                              {{p::cactus::body, "body"}}));
     add(Shape::stormlight,
-        shape("stormlight", -24, 24, 10,
+        shape("stormlight", -26, 24, 14,
               {{p::stormlight::radius_least, {"radius_least", 2.5f, 1.5f, 8}},
                {p::stormlight::radius_most, {"radius_most", 5.5f, 1.5f, 8}},
                {p::stormlight::hanging, {"hanging", 0, 0, 1}}},
               {{p::stormlight::core, "core"}, {p::stormlight::shell, "shell"}, {p::stormlight::cord, "cord"}}));
-    add(Shape::crystal_pillar, shape("crystal_pillar", -6, 90, 16,
+    add(Shape::crystal_pillar, shape("crystal_pillar", -6, 90, 20,
                                      {{p::crystal_pillar::radius_least, {"radius_least", 1.5f, 1, 5}},
                                       {p::crystal_pillar::radius_most, {"radius_most", 3.5f, 1, 5}}},
                                      {{p::crystal_pillar::first, "first"},
@@ -168,7 +168,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                {p::cave_vine::length_most, {"length_most", 15, 1, 16}},
                {p::cave_vine::glowing_share, {"glowing_share", 0.2f, 0, 1}}},
               {{p::cave_vine::vine, "vine"}, {p::cave_vine::glowing, "glowing"}, {p::cave_vine::tip, "tip"}}));
-    add(Shape::fungus, shape("fungus", -2, 24, 10,
+    add(Shape::fungus, shape("fungus", -4, 24, 12,
                              {{p::fungus::height_least, {"height_least", 4, 2, 16}},
                               {p::fungus::height_most, {"height_most", 10, 2, 16}},
                               {p::fungus::cap_radius_least, {"cap_radius_least", 2, 1, 6}},
