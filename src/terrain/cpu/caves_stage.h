@@ -16,8 +16,8 @@ void lattice_stage(const TerrainTables& t, ColumnPos at, LatticeTile& out) {
 template <class L>
 u64 cave_levels(const LatticeTile* const lattices[4]) {
     u64 levels = 0;
-    float least_closeness[kLatticeLevelsUsed], most_width[kLatticeLevelsUsed];
-    for (i32 level = 0; level < kLatticeLevelsUsed; ++level) {
+    float least_closeness[kLatticeLevels], most_width[kLatticeLevels];
+    for (i32 level = 0; level < kLatticeLevels; ++level) {
         float c = kClosenessMost, w = 0;
         const auto take = [&](i32 tile, i32 first, i32 count, i32 step) {
             for (i32 i = 0; i < count; ++i) {
@@ -32,7 +32,7 @@ u64 cave_levels(const LatticeTile* const lattices[4]) {
         least_closeness[level] = c;
         most_width[level] = w;
     }
-    for (i32 level = 0; level + 1 < kLatticeLevelsUsed; ++level)
+    for (i32 level = 0; level + 1 < kLatticeLevels; ++level)
         if (least(least_closeness[level], least_closeness[level + 1]) <
             greatest(most_width[level], most_width[level + 1]) * 1.001f)
             levels |= u64(1) << level;

@@ -7,13 +7,15 @@
 
 namespace vitrail {
 
-inline constexpr float kThetaLeast = 0.04f;
-inline constexpr i32 kOpenWords = 5;                 // of CaveTile::open: nothing opens at y >= 160
-inline constexpr i32 kKeptFromWater = 8;             // blocks of rock under standing water
-inline constexpr float kDryHeight = 4.0f;            // land at least so far above the sea may be opened to the sky
-inline constexpr float kRavineRadius = 0.12f;        // cells
-inline constexpr float kRavineCell = 1.0f / 0.0015f; // blocks
-inline constexpr float kRavineSkyGap = 12.0f;        // a ravine breaks through what lies so far above its top
+inline constexpr float kThetaLeast = 0.07f; // narrower ones would be rows of crumbs
+inline constexpr float kMouthRise = 44.0f; // blocks: in some places caves reach so much higher, and through the surface
+inline constexpr i32 kOpenWords = 5;       // of CaveTile::open: nothing opens at y >= 160
+inline constexpr i32 kKeptFromWater = 8;   // blocks of rock under standing water
+inline constexpr float kDryHeight = 4.0f;  // land at least so far above the sea may be opened to the sky
+inline constexpr float kRavineRadius = 0.12f;                     // cells
+inline constexpr float kRavineCell = 1.0f / 0.0015f;              // blocks
+inline constexpr float kRavineTurns = 40 * 0.0015f / 6.28318531f; // of the sine across it, a block
+inline constexpr float kRavineSkyGap = 18.0f; // a ravine breaks through what lies so far above its top
 
 namespace cave_detail {
 
@@ -98,19 +100,18 @@ VX_HD_FN RavineSpan<L> ravine_span(const TerrainTables& t, const Row<L>& row, ty
     const auto inside = cells.f1 < reach;
     RavineSpan<L> out{none, none};
     if (!L::any(inside)) return out;
-    // sin(15 (rx + rz) + 4 F): the part that grows with x and z is counted in turns, in 2^-64 of one, so that it wraps.
-    constexpr double turns_a_block = 15 * 0.0015 / 6.283185307179586;
-    constexpr u64 turns = u64(turns_a_block * 18446744073709551616.0);
+    // sin(40 (rx + rz) + 4 F): the part that grows with x and z is counted in turns, in 2^-64 of one, so that it wraps.
+    constexpr u64 turns = u64(kRavineTurns * 18446744073709551616.0f);
     const u64 base = (u64(i64(row.x)) + u64(i64(row.z))) * turns;
-    const F angle =
-        (noise_detail::fraction_of(base >> 32) + (moved.dx + moved.dz) * float(turns_a_block)) * 6.28318531f +
-        fractal(t.ravine_gate, place) * 4.0f;
-    const F gate = step_between<L>(0.4f, 0.6f, sine_of<L>(angle));
+    const F angle = (noise_detail::fraction_of(base >> 32) + (moved.dx + moved.dz) * kRavineTurns) * 6.28318531f +
+                    fractal(t.ravine_gate, place) * 4.0f;
+    const F gate = step_between<L>(0.45f, 0.8f, sine_of<L>(angle));
     const F rim = step_between<L>(0.0f, 0.3f, 1.0f - cells.f1 / select(inside, reach, L::f(1.0f)));
     const F depth = (fractal(t.ravine_depth, place) * 26.0f + 60.0f) * rim * gate;
-    F high = unit_of(cells.cell) * 24.0f + 120.0f;
-    const F low = high - depth;
-    high = select(top < high + kRavineSkyGap, L::f(float(kOpenWords * 32)), high); // through to the sky
+    const F rim_y = unit_of(cells.cell) * 24.0f + 120.0f, low = rim_y - depth;
+    // Through to the sky, or under a vault.
+    const F high =
+        select(top < rim_y + kRavineSkyGap, L::f(float(kOpenWords * 32)), rim_y - (1.0f - rim * gate) * 10.0f);
     const auto deep = inside & (depth > L::f(1.0f));
     out.low = select(deep, low, none);
     out.high = select(deep, high, none);
@@ -137,11 +138,15 @@ VX_HD_FN void cave_row(const TerrainTables& t, const GroundTile& ground, const L
     const RavineSpan<L> ravine = ravine_span<L>(t, row, select(dry, ocean, L::f(1.0f)), top);
     const I ravine_low = floor_int<L>(ravine.low), ravine_high = floor_int<L>(ravine.high);
 
+    const Noise n = t.ravine_depth;
+    const F high = fractal2<L>(t.octave + n.first, n.octaves, row.spot(L::f(0.0f)));
+    const F lower = ocean * 50.0f - step_between<L>(0.25f, 0.5f, high) * kMouthRise; // that much, as the caves see it
+
     F closeness = L::f(kClosenessMost), width = L::f(0.0f);
     i32 have = -1; // the level they are of
     for (i32 word = 0; word < kOpenWords; ++word) {
         U bits = L::u(0);
-        for (i32 level = word * 8; level < word * 8 + 8 && level < kLatticeLevelsUsed - 1; ++level) {
+        for (i32 level = word * 8; level < word * 8 + 8 && level < kLatticeLevels - 1; ++level) {
             if ((levels >> level & 1) == 0) continue;
             if (have != level) cave_fields_row<L>(lattices, row, level, closeness, width);
             const F c0 = closeness, w0 = width;
@@ -152,8 +157,7 @@ VX_HD_FN void cave_row(const TerrainTables& t, const GroundTile& ground, const L
                 const i32 y = level * kLatticeStep + i;
                 const float f = float(i) * 0.25f;
                 const F low = 0.3f + 0.7f * step_between<ScalarLanes>(5.0f, 20.0f, float(y)) + L::f(0.0f);
-                const F theta =
-                    between(w0, width, f) * (step_between<L>(142.0f, 95.0f, ocean * 50.0f + float(y)) * low);
+                const F theta = between(w0, width, f) * (step_between<L>(142.0f, 95.0f, lower + float(y)) * low);
                 const auto open = (theta > L::f(kThetaLeast)) & (between(c0, closeness, f) < theta);
                 bits = bits | select(open, L::u(1u << (y & 31)), L::u(0));
             }

@@ -8,24 +8,26 @@
 
 namespace vitrail {
 
-inline constexpr float kCaveStretch = 1.6f;     // cells are flatter than wide
-inline constexpr float kCaveWarp = 1.8f;        // cells
-inline constexpr float kClosenessMost = 16.0f;  // a cap, where a place is a cell's very point
-inline constexpr float kCaveWidthMost = 0.864f; // (.24 + .12) * 2.4
-inline constexpr i32 kCaveTop = 136;            // no cave is wide enough at or above it (cave_kernel.h)
-inline constexpr i32 kLatticeLevelsUsed = kCaveTop / kLatticeStep + 1;
+// Where these differ from the reference table (1.8 and .24 + .12 F): three warps that know nothing of each other fold
+// space more than one does, and would shred tunnels into crumbs; narrower caves leave a tenth of the rock open instead
+// of a fifth.
+inline constexpr float kCaveStretch = 1.6f; // cells are flatter than wide
+inline constexpr float kCaveWarp = 1.2f;    // cells
+inline constexpr float kCaveWidth = 0.17f, kCaveWidthChange = 0.085f, kCaveHallWidth = 1.4f;
+inline constexpr float kClosenessMost = 16.0f;                       // a cap, where a place is a cell's very point
+inline constexpr i32 kCaveTop = (kLatticeLevels - 1) * kLatticeStep; // caves lie below
 
-// Fields of the places `at`: blocks, dy from 0 to kCaveTop.
+// Fields of the places `at`: blocks.
 template <class L>
 VX_HD_FN void cave_fields(const TerrainTables& t, const Spot<L>& at, typename L::F& closeness, typename L::F& width) {
     using F = typename L::F;
     const auto fractal = [&](Noise n) { return fractal3<L>(t.octave + n.first, n.octaves, at); };
-    const F wx = fractal(t.cave_warp_x) * kCaveWarp, wy = fractal(t.cave_warp_y) * kCaveWarp,
-            wz = fractal(t.cave_warp_z) * kCaveWarp;
+    const auto warp = [&](Noise n) { return fractal(n) * kCaveWarp; };
+    const F wx = warp(t.cave_warp_x), wy = warp(t.cave_warp_y), wz = warp(t.cave_warp_z);
     const Cellular<L> cells = worley3<L>(t.octave[t.cave_cells.first], at, kCaveStretch, wx, wy, wz);
     closeness = least(cells.f3 / greatest(cells.f1, L::f(1e-4f)) - 1.0f, L::f(kClosenessMost));
-    const F gate = 1.0f + step_between<L>(0.2f, 0.4f, fractal(t.cave_gate)) * 1.4f;
-    width = clamp01<L>((fractal(t.cave_width) * 0.12f + 0.24f) * gate * (1.0f / kCaveWidthMost)) * kCaveWidthMost;
+    const F gate = 1.0f + step_between<L>(0.2f, 0.4f, fractal(t.cave_gate)) * kCaveHallWidth;
+    width = (fractal(t.cave_width) * kCaveWidthChange + kCaveWidth) * gate;
 }
 
 // Points of the lattice of the column `at`: lane l (GPU: `point`) is the block column (4 * (l & 3), 4 * (l >> 2)).
@@ -40,10 +42,9 @@ struct LatticePoints {
 template <class L>
 VX_HD_FN void lattice_level(const TerrainTables& t, const LatticePoints<L>& points, i32 level, LatticeTile& out) {
     using F = typename L::F;
-    F closeness = L::f(kClosenessMost), width = L::f(0.0f);
-    if (level < kLatticeLevelsUsed)
-        cave_fields<L>(t, Spot<L>{points.x, points.z, points.dx, L::f(float(level * kLatticeStep)), points.dz},
-                       closeness, width);
+    F closeness, width;
+    cave_fields<L>(t, Spot<L>{points.x, points.z, points.dx, L::f(float(level * kLatticeStep)), points.dz}, closeness,
+                   width);
     L::store(out.closeness[level] + points.index, closeness);
     L::store(out.width[level] + points.index, width);
 }
