@@ -2,6 +2,7 @@
 
 #include "lua/sandbox.h"
 #include "script/block_reader.h"
+#include "script/terrain_reader.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -124,7 +125,18 @@ public:
         return {};
     }
 
-    Content take() { return {std::move(registry_), nullptr}; }
+    Result<> define_terrain(std::span<const Value> a) { return terrain_.define_terrain(a); }
+    Result<> define_terrain_layer(std::span<const Value> a) { return terrain_.define_layer(a); }
+    Result<> define_terrain_biome(std::span<const Value> a) { return terrain_.define_biome(a); }
+    Result<> define_cave_biome(std::span<const Value> a) { return terrain_.define_cave_biome(a); }
+    Result<> define_terrain_feature(std::span<const Value> a) { return terrain_.define_feature(a); }
+    Result<> define_decorator(std::span<const Value> a) { return terrain_.define_decorator(a); }
+
+    // Errors: those of TerrainReader::finish.
+    Result<Content> take() {
+        VX_TRY_ASSIGN(auto terrain, terrain_.finish(*registry_));
+        return Content{std::move(registry_), std::move(terrain)};
+    }
 
 private:
     // Counted before anything is kept: a few lines of Lua can ask for much.
@@ -153,6 +165,7 @@ private:
     }
 
     std::shared_ptr<BlockRegistry> registry_ = std::make_shared<BlockRegistry>();
+    TerrainReader terrain_;
     std::size_t biomes_ = 0, looks_ = 0, boxes_ = 0;
 };
 
@@ -186,13 +199,19 @@ Result<Content> load_content_texts(std::span<const ContentFile> files, u64 instr
     give("define_texture", &ContentBuilder::define_texture);
     give("define_biome", &ContentBuilder::define_biome);
     give("define_hotbar", &ContentBuilder::define_hotbar);
+    give("define_terrain", &ContentBuilder::define_terrain);
+    give("define_terrain_layer", &ContentBuilder::define_terrain_layer);
+    give("define_terrain_biome", &ContentBuilder::define_terrain_biome);
+    give("define_cave_biome", &ContentBuilder::define_cave_biome);
+    give("define_terrain_feature", &ContentBuilder::define_terrain_feature);
+    give("define_decorator", &ContentBuilder::define_decorator);
     u64 hash = 0;
     for (const ContentFile& file : files) {
         hash = XXH3_64bits_withSeed(file.name.data(), file.name.size(), hash);
         hash = XXH3_64bits_withSeed(file.text.data(), file.text.size(), hash);
         VX_TRY(sandbox->run(file.text, file.name));
     }
-    Content content = builder.take();
+    VX_TRY_ASSIGN(Content content, builder.take());
     content.registry->content_hash = hash;
     return content;
 }
