@@ -4,8 +4,9 @@
 // Positions are blocks relative to the placement's corner: its block spans 0..1 on each axis, its middle is .5, .5, .5
 // (b.root()). Which numbers and blocks b.number(i), b.row.blocks[i] are stands in compile/shape_info.cpp. The solid
 // emitted first wins where solids overlap: wood before leaves. Chance comes from b.unit() and its like alone, which
-// follow from the placement, so that a shape is the same whoever asks. A feature whose solids do not all find room is
-// not placed; voxels beyond the row's reach and bounds are cut off, so shape_info must state true ones.
+// follow from the placement, so that a shape is the same whoever asks - and at most one random number an expression
+// (braces {a, b} are in order): compilers differ in the order of operands. A feature whose solids do not all find room
+// is not placed; voxels beyond the row's reach and bounds are cut off, so shape_info must state true ones.
 #pragma once
 
 #include "terrain/kernel/power_kernel.h"

@@ -22,7 +22,8 @@ VX_HD_FN void build_stormlight(ShapeBuilder<L>& b) {
     float pole = 1.0f; // which way the cord goes
     if (hanging) {
         middle.y = 1.0f - r - greatest(spare * b.range(0.25f, 0.7f), 0.0f);
-        middle = middle + b.around(b.unit()) * b.range(0.0f, 1.2f);
+        const Vec3 away = b.around(b.unit());
+        middle = middle + away * b.range(0.0f, 1.2f);
     } else {
         middle.y = r + least(spare, b.range(0.2f, 1.4f));
         pole = -1.0f;
@@ -60,15 +61,16 @@ VX_HD_FN void build_crystal_pillar(ShapeBuilder<L>& b) {
     r = greatest(least(r, room * 0.16f), 1.0f);
     const Brush p = b.paint(b.below(3));
     const Vec3 foot = b.root() + Vec3{0.0f, -3.0f, 0.0f};
-    const Vec3 head =
-        b.root() + Vec3{0.0f, room + 2.5f, 0.0f} + b.around(b.unit()) * least(room * b.range(0.0f, 0.16f), 7.0f);
+    const Vec3 away = b.around(b.unit());
+    const Vec3 head = b.root() + Vec3{0.0f, room + 2.5f, 0.0f} + away * least(room * b.range(0.0f, 0.16f), 7.0f);
     b.prism(foot, head, r, r * b.range(0.7f, 1.05f), p);
     const u32 shards = 3 + b.below(4);
     const float turn = b.unit();
     for (u32 i = 0; i < shards; ++i) {
         const bool up = (i & 1) == 0; // from the floor
         const float wide = greatest(r * b.range(0.35f, 0.6f), 0.7f), far = least(room * b.range(0.25f, 0.55f), 11.0f);
-        Vec3 out = b.towards(turn + (float(i) + b.range(-0.3f, 0.3f)) / float(shards), b.range(0.12f, 0.2f));
+        const float where = turn + (float(i) + b.range(-0.3f, 0.3f)) / float(shards);
+        Vec3 out = b.towards(where, b.range(0.12f, 0.2f));
         Vec3 from = foot;
         if (!up) {
             from = head;
@@ -90,14 +92,16 @@ VX_HD_FN void build_glowstone_cluster(ShapeBuilder<L>& b) {
     b.ball(b.root() + Vec3{0.0f, 1.0f, 0.0f}, Vec3{size * 0.8f, size * 0.4f + 1.0f, size * 0.8f}, b.wobbly(p, 0.8f));
     const u32 drops = 3 + b.below(u32(size) + 1);
     for (u32 i = 0; i < drops; ++i) {
-        Vec3 at = b.root() + b.around(b.unit()) * (size * b.range(0.0f, 0.75f)) + Vec3{0.0f, 1.0f, 0.0f};
+        const Vec3 away = b.around(b.unit());
+        Vec3 at = b.root() + away * (size * b.range(0.0f, 0.75f)) + Vec3{0.0f, 1.0f, 0.0f};
         float r = size * b.range(0.2f, 0.36f);
         const u32 links = 2 + b.below(3);
         for (u32 k = 0; k < links; ++k) {
             b.ball(at, Vec3{greatest(r, 0.55f), greatest(r * 1.3f, 0.7f), greatest(r, 0.55f)},
                    k + 1 == links ? solid : p);
-            const Vec3 next =
-                at + b.around(b.unit()) * (r * b.range(0.2f, 0.8f)) + Vec3{0.0f, -r * b.range(1.0f, 1.7f) - 0.5f, 0.0f};
+            const Vec3 side = b.around(b.unit());
+            const float out = r * b.range(0.2f, 0.8f), down = r * b.range(1.0f, 1.7f) + 0.5f;
+            const Vec3 next = at + side * out - Vec3{0.0f, down, 0.0f};
             if (next.y < -deepest) break;
             if (k + 1 < links && r < 1.0f) b.cone(at, next, 0.55f, 0.5f, solid);
             at = next;
@@ -130,7 +134,8 @@ VX_HD_FN void build_fungus(ShapeBuilder<L>& b) {
     float r = b.range(b.number(parts::fungus::cap_radius_least), b.number(parts::fungus::cap_radius_most));
     r = least(r, height * 0.7f + 0.5f);
     const float thick = height > 7.0f ? 0.95f : 0.5f;
-    const Vec3 lean = b.around(b.unit()) * (height * b.range(0.0f, 0.16f));
+    const Vec3 side = b.around(b.unit());
+    const Vec3 lean = side * (height * b.range(0.0f, 0.16f));
     const Vec3 top = b.root() + lean + Vec3{0.0f, height, 0.0f};
     b.spline(b.root() + Vec3{0.0f, -1.5f, 0.0f}, b.root() + Vec3{0.0f, height * 0.6f, 0.0f}, top, thick + 0.25f, thick,
              4, b.paint(parts::fungus::stem));

@@ -15,11 +15,13 @@ VX_HD_FN void tubes(ShapeBuilder<L>& b, float size, Brush p) {
     const float first = b.unit();
     for (u32 i = 0; i < stems; ++i) {
         const float turn = first + (float(i) + b.range(-0.2f, 0.2f)) / float(stems);
-        const Vec3 fork = b.root() + b.towards(turn, b.range(0.13f, 0.2f)) * (size * b.range(0.55f, 0.8f));
+        const Vec3 rising = b.towards(turn, b.range(0.13f, 0.2f));
+        const Vec3 fork = b.root() + rising * (size * b.range(0.55f, 0.8f));
         b.cone(b.root(), fork, 0.75f, 0.65f, p);
         const u32 tips = 2 + b.below(2);
         for (u32 k = 0; k < tips; ++k) {
-            const Vec3 out = b.towards(turn + b.range(-0.18f, 0.18f), b.range(0.12f, 0.22f));
+            const float aside = b.range(-0.18f, 0.18f);
+            const Vec3 out = b.towards(turn + aside, b.range(0.12f, 0.22f));
             b.cone(fork, fork + out * (size * b.range(0.5f, 0.85f)), 0.65f, 0.5f, p);
         }
     }
@@ -45,8 +47,9 @@ VX_HD_FN void bubbles(ShapeBuilder<L>& b, float size, Brush p) {
     for (u32 i = 0; i < count; ++i) {
         const float r = size * b.range(0.16f, 0.32f) + 0.4f;
         b.ball(at, r, p);
-        at = b.root() + b.around(b.unit()) * (size * b.range(0.15f, 0.5f)) +
-             Vec3{0.0f, size * b.range(0.05f, 0.75f), 0.0f};
+        const Vec3 away = b.around(b.unit());
+        const float out = size * b.range(0.15f, 0.5f), up = size * b.range(0.05f, 0.75f);
+        at = b.root() + away * out + Vec3{0.0f, up, 0.0f};
     }
 }
 
@@ -72,8 +75,8 @@ VX_HD_FN void tables(ShapeBuilder<L>& b, float size, Brush p) {
     float radius = size * b.range(0.8f, 1.1f);
     const u32 floors = 1 + b.below(size > 4.0f ? 3 : 2);
     for (u32 i = 0; i < floors; ++i) {
-        const Vec3 top =
-            foot + b.around(b.unit()) * (size * 0.15f) + Vec3{0.0f, 1.0f + size * b.range(0.2f, 0.4f), 0.0f};
+        const Vec3 away = b.around(b.unit());
+        const Vec3 top = foot + away * (size * 0.15f) + Vec3{0.0f, 1.0f + size * b.range(0.2f, 0.4f), 0.0f};
         b.cone(foot, top, 0.9f, 0.7f, p);
         b.cylinder(top, top + Vec3{0.0f, 0.9f, 0.0f}, radius, radius, b.wobbly(p, 0.8f));
         foot = top;
@@ -132,7 +135,8 @@ VX_HD_FN void build_iceberg(ShapeBuilder<L>& b) {
     Vec3 foot[kPeaksMost], top[kPeaksMost];
     float wide[kPeaksMost], sharp[kPeaksMost];
     const u32 peaks = 3 + b.below(kPeaksMost - 2);
-    const Vec3 lean = b.around(b.unit()) * (radius * b.range(0.0f, 0.22f));
+    const Vec3 side = b.around(b.unit());
+    const Vec3 lean = side * (radius * b.range(0.0f, 0.22f));
     const float highest = radius * b.range(0.75f, 1.35f);
     for (u32 i = 0; i < peaks; ++i) {
         const float away = i == 0 ? 0.08f : b.range(0.3f, 0.55f), share = i == 0 ? 1.0f : b.range(0.3f, 0.8f);
