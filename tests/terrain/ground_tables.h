@@ -109,11 +109,6 @@ public:
     std::vector<GroundTile> ground(const TerrainTables& t, i32 x, i32 z, i32 columns_x, i32 columns_z,
                                    Isa isa = best_isa()) const {
         std::vector<GroundTile> out(std::size_t(columns_x * columns_z));
-        // Whatever the stage leaves out would differ from call to call.
-        for (GroundTile& tile : out)
-            for (u32 a = t.attributes; a < kAttributesMost; ++a)
-                for (float& v : tile.attribute[a])
-                    v = 0;
         terrain_stages(isa).ground(t, {first_.x + x, first_.z + z}, columns_x, columns_z,
                                    part(x, z, columns_x, columns_z).data(), out.data());
         return out;

@@ -223,11 +223,11 @@ private:
             for (i32 x = 0; x < columns_x_; ++x) {
                 GroundTile& out = out_[z * out_pitch_ + x];
                 const LandTile& from = land(x + kGroundReach, z + kGroundReach);
-                std::memcpy(out.attribute, from.attribute, t_.attributes * sizeof from.attribute[0]);
+                std::memcpy(out.attribute, from.attribute, sizeof out.attribute);
                 std::memcpy(out.land, from.height, sizeof out.land);
                 for (i32 row = 0; row < 16; ++row) {
                     const i32 plane_row = (z + kGroundReach) * 16 + row, at = offset(x + kGroundReach, plane_row);
-                    for (u32 l = 0; l < t_.loose; ++l) {
+                    for (u32 l = 0; l < kLooseMost; ++l) { // those beyond the tables' hold 0
                         const bool here = (m_.present[l][plane_row] >> (x + kGroundReach) & 1) != 0;
                         L::store(out.loose[l] + row * 16, here ? L::load(m_.loose[l] + at) : L::f(0.0f));
                     }

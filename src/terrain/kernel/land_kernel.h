@@ -17,7 +17,8 @@ VX_HD typename L::F held_between(typename L::F v, float low, float high) {
     return least(greatest(v, L::f(low)), L::f(high));
 }
 
-// attribute: makes t.attributes values in 0..1, whatever the fields give.
+// attribute: makes kAttributesMost values in 0..1, whatever the fields give; those that the tables lack are 0, so that
+// whole tiles can be compared.
 template <class L>
 VX_HD_FN void surface_attributes(const TerrainTables& t, const Row<L>& row, typename L::F* attribute) {
     using F = typename L::F;
@@ -32,6 +33,8 @@ VX_HD_FN void surface_attributes(const TerrainTables& t, const Row<L>& row, type
         const AttributeRow& a = t.attribute[i];
         attribute[i] = step_between<L>(a.low, a.high, field[a.field]);
     }
+    for (u32 i = t.attributes; i < kAttributesMost; ++i)
+        attribute[i] = L::f(0.0f);
 }
 
 // Weighted mean of the biomes' own heights, blocks. A biome without weight is not asked: elsewhere in the row it may
@@ -41,8 +44,9 @@ VX_HD_FN typename L::F land_height(const TerrainTables& t, const Row<L>& row, co
     using F = typename L::F;
     const F zero = L::f(0.0f);
     F inputs[kInputs];
-    for (u32 i = 0; i < kInputs; ++i)
-        inputs[i] = i < t.attributes ? attribute[i] : zero;
+    for (u32 i = 0; i < kAttributesMost; ++i)
+        inputs[i] = attribute[i];
+    inputs[kInputHeight] = zero;
     const Spot<L> here = row.spot(zero);
     F weights = zero, heights = zero;
     for (u32 b = 0; b < t.biomes; ++b) {
@@ -60,7 +64,7 @@ template <class L>
 VX_HD_FN void land_row(const TerrainTables& t, const Row<L>& row, LandTile& out) {
     typename L::F attribute[kAttributesMost];
     surface_attributes<L>(t, row, attribute);
-    for (u32 i = 0; i < t.attributes; ++i)
+    for (u32 i = 0; i < kAttributesMost; ++i)
         L::store(out.attribute[i] + row.index, attribute[i]);
     L::store(out.height + row.index, land_height<L>(t, row, attribute));
 }
