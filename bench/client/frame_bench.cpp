@@ -1,5 +1,5 @@
 // Frames of a real world: server, replica, mesher and renderer as `vitrail render` uses them, drawn without a window. With
-// --world, --at and --look any world and view; without, the hills of seed 7 seen from above their spawn.
+// --world, --at and --look any world and view; without, the land of seed 7 seen from above their spawn.
 #include "base/clock.h"
 #include "bench/harness.h"
 #include "client/still.h"
@@ -15,13 +15,12 @@ using namespace vitrail;
 
 namespace {
 
-client::StillOptions still_options(bench::Context& context, u32 view_distance) {
+client::StillOptions still_options(bench::Context& context, u32 view_distance, BlockPos spawn) {
     client::StillOptions options;
     options.view_distance = view_distance;
     options.quality = render::Quality::low;
     options.world = context.options["world"];
     options.seed = 7;
-    const BlockPos spawn = spawn_point(options.seed);
     options.pose.eye.at = world_pos_from_numbers(spawn.x + 0.5, spawn.y + 9.0, spawn.z + 0.5);
     options.pose.yaw_deg = 30;
     options.pose.pitch_deg = 12;
@@ -39,8 +38,11 @@ void frame(bench::Context& context, u32 view_distance, bool memory) {
     const std::vector<std::filesystem::path> roots{std::filesystem::path(VITRAIL_SOURCE_DIR) / "content/base"};
     const auto content = load_content(roots);
     if (!content) return context.skip(content.error().message);
-    const auto options = still_options(context, view_distance);
-    const auto still = client::Still::open(options, content->registry);
+    if (!content->terrain) return context.skip("the content describes no terrain");
+    const auto generator = TerrainGenerator::create(*content->terrain, 7);
+    if (!generator) return context.skip(generator.error().message);
+    const auto options = still_options(context, view_distance, spawn_point(**generator));
+    const auto still = client::Still::open(options, *content);
     if (!still) return context.skip(still.error().message);
     // The eye turns a little each frame, as a player's does: what is culled and sorted must be found anew.
     float turned = 0;

@@ -39,8 +39,7 @@ Result<> run_play(const PlayOptions& options) {
     game.screenshot_folder = data_folder() / "screenshots";
     if (const auto path = client::settings_path()) game.settings_file = *path;
     VX_TRY_ASSIGN(const Content content, load_base_content());
-    const auto& registry = content.registry;
-    return client::run_game(game, registry);
+    return client::run_game(game, content);
 }
 
 } // namespace vitrail::apps

@@ -3,9 +3,8 @@
 #include "base/clock.h"
 #include "client/still.h"
 #include "gfx/context.h"
+#include "pipeline/new_world.h"
 #include "script/content_loader.h"
-#include "terrain/generator.h"
-#include "world/block_registry.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,8 +20,9 @@ static void choose_demo(RenderOptions& options) {
 }
 
 // Where a seed's spawn looks best from when no place is given: a little above it, looking along the land.
-static client::CameraPose pose_at_spawn(u64 seed) {
-    const BlockPos spawn = spawn_point(seed);
+static Result<client::CameraPose> pose_at_spawn(const Content& content, u64 seed) {
+    VX_TRY_ASSIGN(const auto generator, open_generator(kGeneratorName, kGeneratorVersion, content.terrain.get(), seed));
+    const BlockPos spawn = spawn_point(*generator);
     client::CameraPose pose;
     pose.eye.at = world_pos_from_numbers(spawn.x + 0.5, spawn.y + 9.0, spawn.z + 0.5);
     pose.yaw_deg = 30;
@@ -45,25 +45,29 @@ Result<> run_render(const RenderOptions& wanted) {
     still_options.dimension = options.dimension;
     still_options.view_distance = u32(options.view_distance);
     still_options.quality = options.quality == "low" ? render::Quality::low : render::Quality::high;
+    bool from_spawn = false;
     if (options.at.empty()) {
         if (!options.seed) return fail(ErrorCode::invalid_argument, "render --world wants --at X,Y,Z and --look YAW,PITCH");
-        still_options.pose = pose_at_spawn(*options.seed);
+        from_spawn = true;
     } else {
         VX_TRY_ASSIGN(const auto at, parse_numbers("--at", options.at, 3));
         still_options.pose.eye.at = world_pos_from_numbers(at[0], at[1], at[2]);
     }
+    std::optional<std::pair<float, float>> turned; // yaw, pitch
     if (!options.look.empty()) {
         VX_TRY_ASSIGN(const auto look, parse_numbers("--look", options.look, 2));
-        still_options.pose.yaw_deg = float(std::fmod(look[0], 360.0));
-        still_options.pose.pitch_deg = float(std::clamp(look[1], -90.0, 90.0));
+        turned = {float(std::fmod(look[0], 360.0)), float(std::clamp(look[1], -90.0, 90.0))};
     }
-    still_options.pose.fov_deg = options.fov_deg;
     VX_TRY(check_writable(options.output));
     if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
     VX_TRY_ASSIGN(const Content content, load_base_content());
-    const auto& registry = content.registry;
+    if (from_spawn) {
+        VX_TRY_ASSIGN(still_options.pose, pose_at_spawn(content, *options.seed));
+    }
+    if (turned) still_options.pose.yaw_deg = turned->first, still_options.pose.pitch_deg = turned->second;
+    still_options.pose.fov_deg = options.fov_deg;
     still_options.stop = &stop_on_signals(); // a passing world lies in a folder that must go
-    VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, registry));
+    VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, content));
 
     const u64 start = now_ns();
     VX_TRY_ASSIGN(const auto image, still->draw(still_options.pose, size.first, size.second, options.time));

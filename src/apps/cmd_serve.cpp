@@ -2,7 +2,6 @@
 
 #include "script/content_loader.h"
 #include "server/server.h"
-#include "world/block_registry.h"
 
 #include <atomic>
 #include <chrono>
@@ -17,11 +16,10 @@ namespace vitrail::apps {
 Result<> run_serve(const ServeOptions& options) {
     if (options.port != 0) return fail(ErrorCode::unsupported, "serve --port: joining over the network is not built yet");
     VX_TRY_ASSIGN(const Content content, load_base_content());
-    const auto& registry = content.registry;
     server::ServerOptions server_options;
     server_options.folder = options.world;
     server_options.create = false;
-    VX_TRY_ASSIGN(const auto server, server::Server::open(server_options, registry));
+    VX_TRY_ASSIGN(const auto server, server::Server::open(server_options, content));
     const std::atomic<bool>& stop = stop_on_signals();
     server->start();
     fmt::print("serving {}; Ctrl-C saves and ends\n", options.world);

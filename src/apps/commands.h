@@ -37,9 +37,20 @@ struct GenerateOptions {
     u64 seed = 1;
     std::string columns; // X0,Z0,X1,Z1 in chunk columns, inclusive
     std::string device = "cpu", world, stats_file;
+    int threads = 0; // 0: as many as the machine has cores
     bool hash = false, list = false;
 };
 Result<> run_generate(const GenerateOptions& options);
+
+struct BiomeMapOptions {
+    u64 seed = 1;
+    std::string center = "0,0";  // X,Z in blocks
+    std::string mode = "blocks"; // or "biomes"
+    std::string output;
+    int size = 4096; // blocks a side
+    int scale = 0;   // blocks a pixel; 0: so that the picture has at most 1024 pixels a side
+};
+Result<> run_biome_map(const BiomeMapOptions& options);
 
 struct RenderOptions {
     std::string world, dimension, at, look, size = "854x480", renderer = "raster", device, output, stats_file;

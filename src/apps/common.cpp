@@ -70,7 +70,7 @@ Result<fs::path> content_folder() {
     return fail(ErrorCode::not_found, fmt::format("no content folder: looked in {} (set VITRAIL_CONTENT)", places.front().string()));
 }
 
-Result<std::shared_ptr<BlockRegistry>> load_base_content() {
+Result<Content> load_base_content() {
     VX_TRY_ASSIGN(const fs::path folder, content_folder());
     const std::vector<fs::path> roots{folder / "base"};
     std::error_code error;

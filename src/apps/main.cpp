@@ -94,15 +94,27 @@ int main(int argc, char** argv) {
 
     GenerateOptions generate;
     {
-        auto* c = app.add_subcommand("generate", "Generate terrain");
+        auto* c = app.add_subcommand("generate", "Generate land");
         c->add_option("--seed", generate.seed, "world seed")->check(seed_number());
         c->add_option("--columns", generate.columns, "X0,Z0,X1,Z1 in chunk columns, inclusive");
         c->add_option("--device", generate.device, "cpu or cuda");
+        c->add_option("--threads", generate.threads, "threads of the CPU; as many as there are cores where not given")->check(CLI::Range(1, 1024));
         c->add_option("--world", generate.world, "keep it in this world folder");
         c->add_option("--stats", generate.stats_file, "write figures as JSON");
         c->add_flag("--hash", generate.hash, "print a hash of all blocks");
         c->add_flag("--list", generate.list, "list what the generator knows");
         commands.push_back({c, [&] { return run_generate(generate); }});
+    }
+    BiomeMapOptions biome_map;
+    {
+        auto* c = app.add_subcommand("biome-map", "Draw a map of generated land, seen from above");
+        c->add_option("--seed", biome_map.seed, "world seed")->check(seed_number());
+        c->add_option("--center", biome_map.center, "X,Z in blocks");
+        c->add_option("--size", biome_map.size, "blocks a side")->check(CLI::Range(16, 1 << 20));
+        c->add_option("--scale", biome_map.scale, "blocks a pixel; so that at most 1024 pixels a side come out where not given")->check(CLI::Range(1, 4096));
+        c->add_option("--mode", biome_map.mode, "blocks or biomes")->check(CLI::IsMember({"blocks", "biomes"}));
+        c->add_option("--output,-o", biome_map.output, "PNG file")->required();
+        commands.push_back({c, [&] { return run_biome_map(biome_map); }});
     }
     RenderOptions render;
     {

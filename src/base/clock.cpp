@@ -3,12 +3,19 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 
 namespace vitrail {
 
 u64 now_ns() {
     return u64(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
                    .count());
+}
+
+u64 thread_time_ns() {
+    timespec t{};
+    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t) != 0) return now_ns();
+    return u64(t.tv_sec) * 1000000000ull + u64(t.tv_nsec);
 }
 
 static u64 status_kib(const char* key) {

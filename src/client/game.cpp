@@ -186,7 +186,7 @@ static Result<> play(GameState& state) {
     return {};
 }
 
-Result<> run_game(const GameOptions& options, std::shared_ptr<const BlockRegistry> registry) {
+Result<> run_game(const GameOptions& options, const Content& content) {
     GameState state;
     state.options = options;
     if (!options.settings_file.empty()) {
@@ -198,11 +198,11 @@ Result<> run_game(const GameOptions& options, std::shared_ptr<const BlockRegistr
     }
     if (options.view_distance > 0) state.settings.view_distance = options.view_distance;
     VX_TRY(open_window(state));
-    VX_TRY(state.renderer->load_textures(*registry));
+    VX_TRY(state.renderer->load_textures(*content.registry));
     LocalGameOptions local = options.local;
     local.server.threads = default_worker_count();
     local.replica.view_distance = u32(state.settings.view_distance);
-    VX_TRY_ASSIGN(state.game, LocalGame::open(local, registry));
+    VX_TRY_ASSIGN(state.game, LocalGame::open(local, content));
     state.pool = std::make_unique<ThreadPool>(default_worker_count());
     state.feeder = std::make_unique<SectionFeeder>(*state.renderer, *state.pool);
     VX_TRY_ASSIGN(const bool ready, wait_for_world(state));

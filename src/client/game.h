@@ -27,7 +27,7 @@ struct GameOptions {
 };
 
 // Opens window and world, plays until the player quits, saves. Errors: no display, the server's.
-Result<> run_game(const GameOptions& options, std::shared_ptr<const BlockRegistry> registry);
+Result<> run_game(const GameOptions& options, const Content& content);
 
 struct Hotbar {
     std::vector<std::string> names; // block names, nine

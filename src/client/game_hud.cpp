@@ -52,6 +52,8 @@ std::vector<std::string> debug_lines_right(const GameState& state) {
         fmt::format("gpu {} MB", state.renderer->stats().gpu_bytes >> 20),
         fmt::format("server tick {:.1f} ms, most {:.1f}", server.tick_ms, server.tick_ms_max),
         fmt::format("{} columns, {} chunks, {} waiting", server.columns, server.chunks, server.columns_waiting),
+        fmt::format("land {:.0f} ms spent, budget {:.0f} %, cache {} MB", double(server.generation.spent_ns) * 1e-6,
+                    100 * server.generation.budget_use, server.generator_cache.bytes >> 20),
         fmt::format("{} sections, {} KB received", net.sections, net.bytes >> 10),
         fmt::format("edits waiting {}  corrections {}", net.pending_edits, net.corrections),
     };

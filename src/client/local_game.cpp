@@ -11,14 +11,14 @@
 namespace vitrail::client {
 
 Result<std::unique_ptr<LocalGame>> LocalGame::open(const LocalGameOptions& options,
-                                                   std::shared_ptr<const BlockRegistry> registry) {
+                                                   const Content& content) {
     std::unique_ptr<LocalGame> game(new LocalGame);
-    VX_TRY_ASSIGN(game->server_, server::Server::open(options.server, registry));
+    VX_TRY_ASSIGN(game->server_, server::Server::open(options.server, content));
     auto [near, far] = net::make_loopback();
     game->server_->connect(std::move(far));
     game->server_->start();
     replica::ReplicaOptions replica_options = options.replica;
-    replica_options.registry = registry;
+    replica_options.registry = content.registry;
     game->replica_ = std::make_unique<replica::Replica>(std::move(near), replica_options);
     return game;
 }

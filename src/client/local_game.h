@@ -18,7 +18,7 @@ struct LocalGameOptions {
 class LocalGame {
 public:
     // Opens the world, starts the server's thread and says hello. Errors: the server's.
-    static Result<std::unique_ptr<LocalGame>> open(const LocalGameOptions& options, std::shared_ptr<const BlockRegistry> registry);
+    static Result<std::unique_ptr<LocalGame>> open(const LocalGameOptions& options, const Content& content);
     ~LocalGame();
     replica::Replica& replica() { return *replica_; }
     server::Server& server() { return *server_; }

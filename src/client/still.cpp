@@ -20,7 +20,7 @@ static Result<std::string> make_scratch_folder() {
     return pattern;
 }
 
-Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, std::shared_ptr<const BlockRegistry> registry) {
+Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Content& content) {
     const u64 start = now_ns();
     std::unique_ptr<Still> still(new Still);
     still->view_distance_ = options.view_distance;
@@ -37,15 +37,16 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, std::sha
     }
     local.server.threads = default_worker_count();
     local.server.view_distance_most = 32;
-    local.server.bytes_a_tick_most = 16u << 20; // nobody waits for a frame here
+    local.server.generation_us_a_second = 0; // nobody waits for a frame here
+    local.server.bytes_a_tick_most = 16u << 20;
     local.server.bytes_in_flight_most = 64u << 20;
     local.server.start = server::StartPlace{options.dimension, options.pose.eye.at};
     local.replica.name = "camera";
     local.replica.view_distance = options.view_distance;
-    VX_TRY_ASSIGN(still->game_, LocalGame::open(local, registry));
+    VX_TRY_ASSIGN(still->game_, LocalGame::open(local, content));
     VX_TRY(still->game_->wait_joined(60));
     VX_TRY_ASSIGN(still->renderer_, render::Renderer::create({.quality = options.quality}));
-    VX_TRY(still->renderer_->load_textures(*registry));
+    VX_TRY(still->renderer_->load_textures(*content.registry));
     still->pool_ = std::make_unique<ThreadPool>(default_worker_count());
     still->feeder_ = std::make_unique<SectionFeeder>(*still->renderer_, *still->pool_);
     still->times_.open_s = seconds_since(start);

@@ -31,7 +31,7 @@ struct StillTimes {
 class Still {
 public:
     // Opens the world and waits until everything the eye could see is meshed and on the GPU. Errors: no OpenGL, the world's, limit.
-    static Result<std::unique_ptr<Still>> open(const StillOptions& options, std::shared_ptr<const BlockRegistry> registry);
+    static Result<std::unique_ptr<Still>> open(const StillOptions& options, const Content& content);
     ~Still();
     // time: 0..24000. The pose may turn and move within the view distance.
     Result<render::Image> draw(const CameraPose& pose, u32 width, u32 height, float time);

@@ -3,7 +3,6 @@
 #include "pipeline/new_world.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace vitrail {
 
@@ -42,55 +41,68 @@ ChunkSource::ChunkSource(WorldRecords& records, SaveQueue& saves, ChunkSourceOpt
     , saves_(saves)
     , options_(std::move(options)) {}
 
-u32 ChunkSource::generator_version(const std::string& generator) {
-    return generator.empty() ? 0 : 1;
-}
-
 Result<std::unique_ptr<ChunkSource>> ChunkSource::create(WorldRecords& records, SaveQueue& saves,
                                                          ChunkSourceOptions options) {
-    if (!known_generator(options.generator))
-        return fail(ErrorCode::invalid_argument, fmt::format("unknown terrain generator '{}'", options.generator));
     auto source = std::unique_ptr<ChunkSource>(new ChunkSource(records, saves, std::move(options)));
-    if (source->options_.generator.empty()) return source;
-    VX_TRY_ASSIGN(source->palette_, make_terrain_palette(records.states(), records.biomes()));
+    if (!source->options_.generator) return source;
+    VX_TRY_ASSIGN(source->palette_,
+                  make_terrain_palette(records.states(), records.biomes(), *source->options_.generator));
     return source;
 }
 
+const TerrainGenerator* ChunkSource::generator_of(const DimensionInfo& dimension) const {
+    return dimension.id == options_.generated_dimension ? options_.generator.get() : nullptr;
+}
+
 Result<ColumnData> ChunkSource::load(const DimensionInfo& dimension, ColumnPos at) const {
-    ColumnData data{.at = at, .chunks = {}, .heights = {}};
-    VX_TRY_ASSIGN(auto record, saves_.load_column(dimension.id, at));
-    VX_TRY_ASSIGN(auto stored, saves_.load_column_chunks(dimension.id, at));
-    std::erase_if(stored, [&](const auto& c) {
+    VX_TRY_ASSIGN(StoredColumn stored, read(dimension, at));
+    return finish(dimension, at, std::move(stored));
+}
+
+Result<StoredColumn> ChunkSource::read(const DimensionInfo& dimension, ColumnPos at) const {
+    StoredColumn stored;
+    VX_TRY_ASSIGN(const auto record, saves_.load_column(dimension.id, at));
+    VX_TRY_ASSIGN(stored.chunks, saves_.load_column_chunks(dimension.id, at));
+    std::erase_if(stored.chunks, [&](const auto& c) {
         return !c.chunk || c.at.y * 16 < dimension.min_y || c.at.y * 16 >= dimension.max_y;
     });
-    const bool whole = record && record->generated;
-    if (!whole && !options_.generator.empty() && dimension.id == options_.generated_dimension) {
-        GeneratedColumn column = generate_column(options_.seed, at, palette_);
+    stored.recorded = record && record->generated;
+    stored.whole = stored.recorded || !generator_of(dimension);
+    return stored;
+}
+
+ColumnData ChunkSource::finish(const DimensionInfo& dimension, ColumnPos at, StoredColumn stored) const {
+    // Where nothing was ever made and nothing will be, there is open air: an imported world ends in a cliff that can be
+    // seen, and built out from; the store learns of such a column only when somebody does.
+    ColumnData data{.at = at, .chunks = {}, .heights = {}, .made = true};
+    if (!stored.whole) {
+        GeneratedColumn column = options_.generator->generate(at, palette_);
         for (std::size_t i = 0; i < column.chunks.size(); ++i) {
             const ChunkPos p{at.x, kTerrainMinY / kChunkSize + i32(i), at.z};
             if (p.y * 16 < dimension.min_y || p.y * 16 >= dimension.max_y) continue;
             data.chunks.push_back({p, std::make_shared<const Chunk>(std::move(column.chunks[i]))});
         }
-        data.made = true;
-        if (stored.empty()) {
+        // A world of another height than the generator's sees other heights.
+        const bool same = dimension.min_y <= kTerrainMinY && dimension.max_y >= kTerrainMaxY;
+        if (stored.chunks.empty() && same) {
             data.heights.above = column.heights;
+            if (dimension.min_y < kTerrainMinY)
+                for (i32& above : data.heights.above)
+                    if (above == kTerrainMinY) above = dimension.min_y;
             return data;
         }
         // Saved chunks win; a column is only ever saved whole, so this mends one whose record was lost.
-        for (auto& s : stored) {
-            auto same =
+        for (auto& s : stored.chunks) {
+            auto found =
                 std::find_if(data.chunks.begin(), data.chunks.end(), [&](const auto& c) { return c.at == s.at; });
-            if (same != data.chunks.end())
-                same->chunk = std::move(s.chunk);
+            if (found != data.chunks.end())
+                found->chunk = std::move(s.chunk);
             else
                 data.chunks.push_back(std::move(s));
         }
     } else {
-        // Where nothing was ever made and nothing will be, there is open air: an imported world ends in a cliff that can be
-        // seen, and built out from; the store learns of such a column only when somebody does.
-        data.made = true;
-        data.stored = whole || !stored.empty();
-        data.chunks = std::move(stored);
+        data.stored = stored.recorded || !stored.chunks.empty();
+        data.chunks = std::move(stored.chunks);
     }
     std::sort(data.chunks.begin(), data.chunks.end(), [](const auto& a, const auto& b) { return a.at.y < b.at.y; });
     // Light is a function of what lies around and is found anew when the column comes in, so it is never out of date.

@@ -20,25 +20,34 @@ struct ColumnData {
     bool stored = false; // the store holds all of it already
 };
 
+// What the store holds of a column.
+struct StoredColumn {
+    std::vector<WorldRecords::ColumnChunk> chunks;
+    bool recorded = false; // as made: chunks that are absent are air
+    bool whole = false;    // nothing is to be generated
+};
+
 struct ChunkSourceOptions {
-    u64 seed = 0;
-    std::string generator; // "hills", or "" for none
+    std::shared_ptr<const TerrainGenerator> generator; // null: none
     DimensionId generated_dimension = DimensionId::overworld;
 };
 
 class ChunkSource {
 public:
-    // Interns the generator's blocks and biomes. Errors: invalid_argument (unknown generator), limit.
+    // Numbers the generator's blocks and biomes. Errors: those of make_terrain_palette.
     static Result<std::unique_ptr<ChunkSource>> create(WorldRecords& records, SaveQueue& saves,
                                                        ChunkSourceOptions options);
 
     // Errors: the store's; the caller may ask again later.
     Result<ColumnData> load(const DimensionInfo& dimension, ColumnPos at) const;
 
+    // The two halves of `load`, between which a scheduler runs the stages that the generator still misses.
+    Result<StoredColumn> read(const DimensionInfo& dimension, ColumnPos at) const;
+    ColumnData finish(const DimensionInfo& dimension, ColumnPos at, StoredColumn stored) const;
+    // Null where this dimension's columns come from the store alone.
+    const TerrainGenerator* generator_of(const DimensionInfo& dimension) const;
+
     const ChunkSourceOptions& options() const { return options_; }
-    // Of the generator, 0 where there is none.
-    static u32 generator_version(const std::string& generator);
-    static bool known_generator(const std::string& generator) { return generator.empty() || generator == "hills"; }
 
 private:
     ChunkSource(WorldRecords& records, SaveQueue& saves, ChunkSourceOptions options);

@@ -8,21 +8,21 @@ namespace vitrail {
 
 static constexpr std::size_t kColumnsABatch = 64;
 
-Result<std::unique_ptr<ColumnKeeper>> ColumnKeeper::open(const std::string& folder, u64 seed,
+Result<std::unique_ptr<ColumnKeeper>> ColumnKeeper::open(const std::string& folder, const TerrainGenerator& generator,
                                                          std::shared_ptr<const BlockRegistry> registry) {
     auto keeper = std::make_unique<ColumnKeeper>();
     VX_TRY_ASSIGN(keeper->records_, WorldRecords::open(folder, registry, {.create = true}));
     VX_TRY_ASSIGN(const auto level, keeper->records_->load_level());
     if (!level) {
-        VX_TRY(make_new_level(*keeper->records_, "World", seed, "hills", 0));
+        VX_TRY(make_new_level(*keeper->records_, "World", generator.seed(), &generator, 0));
         return keeper;
     }
     if (level->unfinished)
         return fail(ErrorCode::denied, fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again",
                                                    folder, level->source));
-    if (level->seed != seed || level->generator != "hills")
-        return fail(ErrorCode::invalid_argument,
-                    fmt::format("{} is a world of seed {} and generator '{}' already", folder, level->seed, level->generator));
+    if (level->seed != generator.seed() || level->generator != kGeneratorName || level->generator_version != kGeneratorVersion)
+        return fail(ErrorCode::invalid_argument, fmt::format("{} is a world of seed {} and generator '{}' (version {}) already: it is left as it is",
+                                                             folder, level->seed, level->generator, level->generator_version));
     return keeper;
 }
 

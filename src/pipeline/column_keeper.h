@@ -15,7 +15,7 @@ class ColumnKeeper {
 public:
     // Opens the world in `folder`, made where there is none. Errors: the store's; invalid_argument, where it is a world of
     // another seed or generator; denied, where it is an unfinished import.
-    static Result<std::unique_ptr<ColumnKeeper>> open(const std::string& folder, u64 seed,
+    static Result<std::unique_ptr<ColumnKeeper>> open(const std::string& folder, const TerrainGenerator& generator,
                                                       std::shared_ptr<const BlockRegistry> registry);
 
     WorldRecords& records() { return *records_; }

@@ -18,30 +18,54 @@ ColumnPos column_of_player(const Session& session) {
     return column_of(chunk_of(block_of(session.body.feet.at)));
 }
 
-bool in_range(ColumnPos a, ColumnPos b, i32 radius) {
-    return std::abs(i64(a.x) - b.x) <= radius && std::abs(i64(a.z) - b.z) <= radius;
+bool in_range(ColumnPos a, ColumnPos b, float radius) {
+    const double dx = double(i64(a.x) - b.x), dz = double(i64(a.z) - b.z);
+    return dx * dx + dz * dz <= double(radius) * radius;
 }
 
 bool column_in_world(ColumnPos at) {
     return in_world(ChunkPos{at.x, 0, at.z});
 }
 
-// Smaller is sooner: the distance in chunks, columns behind the player count as half as far again.
-float urgency(const Session& session, ColumnPos at) {
-    const ColumnPos here = column_of_player(session);
-    const float dx = float(at.x - here.x), dz = float(at.z - here.z);
-    const float distance = std::sqrt(dx * dx + dz * dz);
-    if (distance < 2) return distance;
-    const Vec3 look = look_direction(session.body.yaw, 0);
-    const float ahead = (look.x * dx + look.z * dz) / distance;
-    return distance * (1.25f - 0.25f * ahead);
+constexpr float kMovedBlocks = 2;         // further than this from where it joined a player moves: the budget holds
+constexpr float kSpeedShare = 0.2f;       // of a tick's speed in the mean
+constexpr float kTeleportBlocks = 16;     // a tick; no speed at all
+constexpr int kSectors = 16;              // directions are rounded, so that turning a little sorts nothing anew
+
+float rounded(float v, float step) {
+    return std::round(v / step) * step;
+}
+
+// Follows the player's way; every tick.
+void follow(Session& session) {
+    const WorldPos at = session.body.feet.at;
+    if (!session.followed) session.followed = true, session.joined_at = session.followed_at = at, session.speed = {};
+    const Vec3 moved = view_from(session.followed_at, at).v, away = view_from(session.joined_at, at).v;
+    session.followed_at = at;
+    if (length(away) > kMovedBlocks) session.travels = true;
+    session.speed = length(moved) > kTeleportBlocks ? Vec3{} : session.speed + (moved * float(kTicksASecond) - session.speed) * kSpeedShare;
+}
+
+GenerationViewer viewer_of(const Session& session) {
+    GenerationViewer v;
+    v.at = column_of_player(session);
+    v.radius = float(session.view_distance) + kLoadMargin;
+    constexpr float step = 6.2831853f / kSectors;
+    const Vec3 look = look_direction(rounded(session.body.yaw, step), 0);
+    v.look_x = look.x, v.look_z = look.z;
+    const float speed = std::sqrt(session.speed.x * session.speed.x + session.speed.z * session.speed.z);
+    if (speed > 1) {
+        const float towards = rounded(std::atan2(session.speed.z, session.speed.x), step);
+        const float columns = rounded(speed / kChunkSize, 0.5f);
+        v.move_x = std::cos(towards) * columns, v.move_z = std::sin(towards) * columns;
+    }
+    return v;
 }
 
 } // namespace
 
 bool ready(const ServerDimension& dimension, ColumnPos at) {
-    const auto found = dimension.columns.find(at);
-    return found != dimension.columns.end() && found->second.state == Column::State::ready;
+    return dimension.columns.contains(at);
 }
 
 bool surrounded(const ServerDimension& dimension, ColumnPos at) {
@@ -56,8 +80,7 @@ bool surrounded(const ServerDimension& dimension, ColumnPos at) {
 ChunkPtr require_chunk(ServerDimension& dimension, ChunkPos at) {
     if (ChunkPtr chunk = dimension.dimension.find(at)) return chunk;
     const auto found = dimension.columns.find(column_of(at));
-    if (found == dimension.columns.end() || found->second.state != Column::State::ready || !found->second.made)
-        return nullptr;
+    if (found == dimension.columns.end() || !found->second.made) return nullptr;
     if (!dimension.dimension.contains(origin_of(at))) return nullptr;
     dimension.dimension.put(at, std::make_shared<const Chunk>());
     const ChunkPos one[1] = {at};
@@ -68,86 +91,60 @@ ChunkPtr require_chunk(ServerDimension& dimension, ChunkPos at) {
 
 void request_columns(ServerWorld& world) {
     for (auto& [id, dimension] : world.dimensions) {
-        // Few at a time, so that the order follows the player.
-        const u32 most = std::max(2u, world.pool->threads() * 24);
-        if (dimension.loading >= most) continue;
-        std::vector<std::pair<float, ColumnPos>> missing;
+        std::vector<GenerationViewer> viewers;
+        bool travels = false;
         for (const auto& session : world.sessions) {
-            if (!session->joined || session->dimension() != id) continue;
-            const ColumnPos here = column_of_player(*session);
-            const i32 radius = i32(session->view_distance) + kLoadMargin;
-            if (session->columns_complete && session->loaded_around == here && session->loaded_radius == radius)
-                continue;
-            bool complete = true;
-            for (i32 dz = -radius; dz <= radius; ++dz)
-                for (i32 dx = -radius; dx <= radius; ++dx) {
-                    const ColumnPos at{i32(u32(here.x) + u32(dx)), i32(u32(here.z) + u32(dz))};
-                    if (!column_in_world(at)) continue;
-                    const auto found = dimension.columns.find(at);
-                    if (found != dimension.columns.end()) continue;
-                    complete = false;
-                    missing.emplace_back(urgency(*session, at), at);
-                }
-            session->columns_complete = complete;
-            session->loaded_around = here, session->loaded_radius = radius;
+            if (!session->joined || session->gone || session->dimension() != id) continue;
+            follow(*session);
+            travels |= session->travels;
+            viewers.push_back(viewer_of(*session));
         }
-        const std::size_t take = std::min<std::size_t>(most - dimension.loading, missing.size());
-        std::partial_sort(missing.begin(), missing.begin() + std::ptrdiff_t(take), missing.end(),
-                          [](const auto& a, const auto& b) { return a.first < b.first; });
-        for (std::size_t i = 0; i < take; ++i) {
-            const ColumnPos at = missing[i].second;
-            if (!dimension.columns.try_emplace(at).second) continue; // two sessions want it
-            ++dimension.loading;
-            world.pool->submit(
-                [mailbox = world.mailbox, source = world.source.get(), info = dimension.dimension.info(), at] {
-                    auto column = source->load(info, at);
-                    std::lock_guard lock(mailbox->mutex);
-                    mailbox->columns.push_back({info.id, std::move(column), at});
-                },
-                i64(missing[i].first * 16));
-        }
+        GenerationScheduler& scheduler = *dimension.scheduler;
+        // Until somebody moves nothing is there to stutter, and everybody waits for the land.
+        scheduler.set_limited(travels);
+        scheduler.plan(viewers, [&columns = dimension.columns](ColumnPos at) { return columns.contains(at); });
+        scheduler.pump();
     }
 }
 
+namespace {
+
+void publish(ServerDimension& dimension, FinishedColumn finished) {
+    Column& column = dimension.columns[finished.at];
+    ++dimension.opened;
+    if (!finished.column) {
+        log_error(fmt::format("column {} {} does not load: {}", finished.at.x, finished.at.z, finished.column.error().message));
+        // Left as never made, so that nothing is generated over what may still be read one day.
+        column = {false, true};
+        return;
+    }
+    ColumnData& data = *finished.column;
+    std::vector<ChunkPos> positions;
+    for (auto& c : data.chunks) {
+        positions.push_back(c.at);
+        dimension.dimension.put(c.at, std::move(c.chunk));
+    }
+    dimension.dimension.put_heights(finished.at, data.heights);
+    for (ChunkPos lit : relight_chunks(dimension.dimension, positions).light_chunks)
+        dimension.light_changed.insert(lit);
+    column = {data.made, data.stored};
+}
+
+} // namespace
+
 void publish_columns(ServerWorld& world, float budget_ms) {
     const u64 start = now_ns();
-    std::vector<Arrived> arrived;
-    {
-        std::lock_guard lock(world.mailbox->mutex);
-        arrived.swap(world.mailbox->columns);
-    }
-    std::size_t i = 0;
-    for (; i < arrived.size(); ++i) {
-        if (i > 0 && seconds_since(start) * 1000 > double(budget_ms)) break;
-        Arrived& a = arrived[i];
-        ServerDimension& dimension = world.dimensions.at(a.dimension);
-        --dimension.loading;
-        auto found = dimension.columns.find(a.at);
-        if (found == dimension.columns.end()) continue;
-        if (!a.column) {
-            log_error(fmt::format("column {} {} does not load: {}", a.at.x, a.at.z, a.column.error().message));
-            // Left as never made, so that nothing is generated over what may still be read one day.
-            found->second = {Column::State::ready, false, true};
-            ++dimension.opened;
-            continue;
+    for (auto& [id, dimension] : world.dimensions) {
+        bool any = false;
+        while (!any || seconds_since(start) * 1000 <= double(budget_ms)) {
+            auto finished = dimension.scheduler->take();
+            if (!finished) break;
+            publish(dimension, std::move(*finished));
+            any = true;
         }
-        ColumnData& data = *a.column;
-        std::vector<ChunkPos> positions;
-        for (auto& c : data.chunks) {
-            positions.push_back(c.at);
-            dimension.dimension.put(c.at, std::move(c.chunk));
-        }
-        dimension.dimension.put_heights(a.at, data.heights);
-        for (ChunkPos lit : relight_chunks(dimension.dimension, positions).light_chunks)
-            dimension.light_changed.insert(lit);
-        found->second = {Column::State::ready, data.made, data.stored};
-        ++dimension.opened;
-    }
-    if (i < arrived.size()) {
-        std::lock_guard lock(world.mailbox->mutex);
-        world.mailbox->columns.insert(world.mailbox->columns.begin(),
-                                      std::make_move_iterator(arrived.begin() + std::ptrdiff_t(i)),
-                                      std::make_move_iterator(arrived.end()));
+        const bool complete = dimension.scheduler->pending() == 0;
+        for (auto& session : world.sessions)
+            if (session->dimension() == id) session->columns_complete = complete;
     }
 }
 
@@ -155,11 +152,10 @@ void unload_columns(ServerWorld& world) {
     for (auto& [id, dimension] : world.dimensions) {
         std::vector<ColumnPos> leave;
         for (const auto& [at, column] : dimension.columns) {
-            if (column.state == Column::State::loading) continue;
             bool needed = dimension.dirty_columns.contains(at);
             for (const auto& session : world.sessions)
                 needed |= session->joined && session->dimension() == id &&
-                          in_range(column_of_player(*session), at, i32(session->view_distance) + kKeepMargin);
+                          in_range(column_of_player(*session), at, float(session->view_distance) + kKeepMargin);
             if (!needed) leave.push_back(at);
         }
         const DimensionInfo& info = dimension.dimension.info();

@@ -5,12 +5,13 @@
 
 namespace vitrail::server {
 
-// Columns further than the view distance that stay loaded, so that walking to and fro loads nothing.
-inline constexpr i32 kKeepMargin = 3;
-// Columns beyond the view distance that are loaded: sections at the edge need their neighbors for surfaces and light.
-inline constexpr i32 kLoadMargin = 1;
+// Columns beyond the view distance that are loaded: sections at the edge need their neighbors for surfaces and light, and
+// what comes into view shall be there already.
+inline constexpr float kLoadMargin = 2.5f;
+// Columns beyond the view distance that stay loaded, so that walking to and fro loads nothing.
+inline constexpr float kKeepMargin = 4.5f;
 
-// Asks workers for columns that are missing.
+// Tells the schedulers what is wanted, and lets them hand out work.
 void request_columns(ServerWorld& world);
 // Puts finished columns into their dimensions and lights them, for at most `budget_ms`.
 void publish_columns(ServerWorld& world, float budget_ms);

@@ -23,9 +23,8 @@ u64 seed_of_new_world(const ServerOptions& options) {
 
 } // namespace
 
-Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shared_ptr<const BlockRegistry> registry) {
-    if (!ChunkSource::known_generator(options.generator))
-        return fail(ErrorCode::invalid_argument, fmt::format("unknown terrain generator '{}'", options.generator));
+Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, const Content& content) {
+    const std::shared_ptr<const BlockRegistry> registry = content.registry;
     auto world = std::make_unique<ServerWorld>();
     world->registry = registry;
     world->registry_bytes = net::encode_registry(*registry);
@@ -38,13 +37,16 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shar
     if (level && level->unfinished)
         return fail(ErrorCode::denied, fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again",
                                                    options.folder, level->source));
-    if (level)
+    if (!level && options.read_only) return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
+    // Before anything is written: a world whose land cannot be gone on with stays as it is.
+    const u64 seed = level ? level->seed : seed_of_new_world(options);
+    auto generator = open_generator(level ? level->generator : options.generator, level ? level->generator_version : kGeneratorVersion,
+                                    content.terrain.get(), seed);
+    if (!generator) return fail(generator.error().code, fmt::format("world {}: {}", options.folder, generator.error().message));
+    if (level) {
         world->level = std::move(*level);
-    else if (options.read_only)
-        return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
-    else {
-        VX_TRY_ASSIGN(world->level, make_new_level(*world->records, options.name, seed_of_new_world(options),
-                                                    options.generator, world->content_hash));
+    } else {
+        VX_TRY_ASSIGN(world->level, make_new_level(*world->records, options.name, seed, generator->get(), world->content_hash));
     }
     if (world->level.content_hash != world->content_hash) {
         world->level.content_hash = world->content_hash;
@@ -66,9 +68,16 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shar
     };
     world->saves = std::make_unique<SaveQueue>(*world->records, save_options);
     VX_TRY_ASSIGN(world->source,
-                  ChunkSource::create(*world->records, *world->saves,
-                                      {world->level.seed, world->level.generator, DimensionId::overworld}));
+                  ChunkSource::create(*world->records, *world->saves, {std::move(*generator), DimensionId::overworld}));
     world->pool = std::make_unique<ThreadPool>(options.threads);
+    GenerationOptions generation;
+    // Inside the tick, columns are few a tick and always the same ones.
+    generation.budget_us_a_second = u64(options.generation_us_a_second) * options.threads;
+    generation.columns_most = options.threads == 0 ? 2 : 24 + 24 * options.threads;
+    generation.jobs_most = 2 + 2 * options.threads;
+    for (auto& [id, dimension] : world->dimensions)
+        dimension.scheduler = std::make_unique<GenerationScheduler>(
+            *world->pool, make_column_work(*world->source, dimension.dimension.info()), generation);
     world->options = std::move(options);
     return world;
 }

@@ -6,7 +6,7 @@
 namespace vitrail::server {
 
 // Opens or makes the world in options.folder. Errors: see Server::open.
-Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, std::shared_ptr<const BlockRegistry> registry);
+Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, const Content& content);
 
 // Hands what changed to the store as one batch; the sessions hear of it when it is on disk.
 void save_changes(ServerWorld& world);

@@ -28,7 +28,7 @@ u64 chunk_memory(const ServerWorld& world) {
 
 bool is_idle(const ServerWorld& world) {
     for (const auto& [id, dimension] : world.dimensions)
-        if (dimension.loading > 0 || !dimension.light_changed.empty()) return false;
+        if (dimension.scheduler->pending() > 0 || !dimension.light_changed.empty()) return false;
     for (const auto& session : world.sessions) {
         if (!session->joined || session->gone || session->walk_again || !session->columns_complete) return false;
         if (session->walked_opened != world.dimensions.at(session->dimension()).opened || !session->wanted.empty())
@@ -42,9 +42,9 @@ bool is_idle(const ServerWorld& world) {
 
 Server::Server() = default;
 
-Result<std::unique_ptr<Server>> Server::open(ServerOptions options, std::shared_ptr<const BlockRegistry> registry) {
+Result<std::unique_ptr<Server>> Server::open(ServerOptions options, const Content& content) {
     auto server = std::unique_ptr<Server>(new Server);
-    VX_TRY_ASSIGN(server->world_, open_world(std::move(options), std::move(registry)));
+    VX_TRY_ASSIGN(server->world_, open_world(std::move(options), content));
     return server;
 }
 
@@ -80,8 +80,10 @@ void Server::tick_once() {
     for (const auto& [id, dimension] : world_->dimensions) {
         stats.columns += u32(dimension.columns.size());
         stats.chunks += u32(dimension.dimension.chunks().size());
-        stats.columns_waiting += dimension.loading;
+        stats.columns_waiting += u32(dimension.scheduler->pending());
+        if (id == world_->source->options().generated_dimension) stats.generation = dimension.scheduler->stats();
     }
+    if (const auto& generator = world_->source->options().generator) stats.generator_cache = generator->cache_stats();
     stats.idle = is_idle(*world_);
     stats.save_pending_bytes = world_->saves->pending_bytes();
     if (world_->tick % kTicksASecond == 0) stats.chunk_memory_bytes = chunk_memory(*world_);
@@ -114,6 +116,7 @@ Result<> Server::stop() {
     if (thread_.joinable()) thread_.join();
     if (!world_ || stopped_) return {};
     stopped_ = true;
+    for (auto& [id, dimension] : world_->dimensions) dimension.scheduler->stop();
     world_->pool->wait_idle();
     for (auto& session : world_->sessions)
         if (!session->gone) send(*session, net::Channel::control, net::Goodbye{"the server stops"});

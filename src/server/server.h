@@ -1,6 +1,6 @@
 // Server: a world directory, a thread that ticks it at 20 Hz, and the sessions that play in it. How to use it:
 //
-//     VX_TRY_ASSIGN(auto server, Server::open({.folder = "worlds/mine"}, registry));
+//     VX_TRY_ASSIGN(auto server, Server::open({.folder = "worlds/mine"}, content));
 //     auto [near, far] = net::make_loopback();
 //     server->connect(std::move(far));        // the replica takes `near`
 //     server->start();                        // or tick_once() by hand, in tests
@@ -15,8 +15,9 @@
 #include "base/result.h"
 #include "base/types.h"
 #include "net/transport.h"
+#include "pipeline/generation_scheduler.h"
+#include "script/content_loader.h"
 #include "voxel/coords.h"
-#include "world/block_registry.h"
 
 #include <atomic>
 #include <memory>
@@ -40,11 +41,14 @@ struct ServerOptions {
     std::string folder;              // the world's directory
     bool create = true;              // make a world where there is none
     std::optional<u64> seed;         // of a new world; none: random
-    std::string generator = "hills"; // of a new world; "" makes an empty one
-    std::string name = "World";      // of a new world
+    std::string generator = "endless"; // of a new world; "" makes an empty one
+    std::string name = "World";        // of a new world
     bool read_only = false;          // takes no lock on the folder and keeps nothing; the world must exist
     std::optional<StartPlace> start;
-    unsigned threads = 1;                // workers that load, generate and light; 0: inside the tick
+    unsigned threads = 1;                // workers that load and generate; 0: inside the tick
+    // Time that each worker may take for that in a second, microseconds, once somebody has moved; 0: as much as there is.
+    // Half a core holds frame and tick on 2 cores and makes land several times faster than anybody flies.
+    u32 generation_us_a_second = 500'000;
     u32 view_distance_most = 24;         // chunks
     u32 save_group_ms = 100;             // how long a commit waits for company
     u32 bytes_a_tick_most = 512u << 10;  // section bytes sent to one session in one tick
@@ -58,14 +62,17 @@ struct ServerStats {
     u64 sections_sent = 0, bytes_sent = 0, save_pending_bytes = 0;
     bool idle = false; // every session has all it can see, and has said so; nothing loads (at least one session)
     u64 chunk_memory_bytes = 0; // blocks and light of loaded chunks; counted once a second
+    GenerationStats generation; // of the generated dimension
+    TerrainCacheStats generator_cache;
 };
 
 struct ServerWorld;
 
 class Server {
 public:
-    // Errors: the store's (not_found, busy, damaged, unsupported, io), invalid_argument (unknown generator).
-    static Result<std::unique_ptr<Server>> open(ServerOptions options, std::shared_ptr<const BlockRegistry> registry);
+    // Errors: the store's (not_found, busy, damaged, unsupported, io); unsupported, where the world's generator is not known
+    // here (the world is left as it is); those of the terrain's description.
+    static Result<std::unique_ptr<Server>> open(ServerOptions options, const Content& content);
     ~Server();
 
     // A new client's connection; any thread.

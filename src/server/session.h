@@ -52,9 +52,10 @@ struct Session {
 
     // What it sees.
     u32 view_distance = 8;         // chunks
-    bool columns_complete = false; // nothing in reach of loaded_around is missing
-    ColumnPos loaded_around{};
-    i32 loaded_radius = 0;
+    bool columns_complete = false; // nothing it may see is missing
+    bool followed = false, travels = false; // its way is known; it has left the place where it joined
+    WorldPos joined_at{}, followed_at{};
+    Vec3 speed{}; // mean of the last ticks, blocks a second
     u32 states_told = 2, biomes_told = 1;
     std::unordered_map<ChunkPos, HeldSection> held;
     std::unordered_set<ColumnPos> heights_told;

@@ -1,10 +1,9 @@
 // ServerWorld: all that a running world is, as plain data; the systems are free functions over it (tick.h and the
-// headers it names). Only the thread that ticks touches it, but for `arrived` and `kept`, which have a lock of their
-// own.
+// headers it names). Only the thread that ticks touches it, but for `kept`, which has a lock of its own.
 #pragma once
 
 #include "jobs/thread_pool.h"
-#include "pipeline/chunk_source.h"
+#include "pipeline/generation_scheduler.h"
 #include "server/server.h"
 #include "server/session.h"
 #include "store/save_queue.h"
@@ -17,9 +16,8 @@
 
 namespace vitrail::server {
 
+// In the dimension and lit.
 struct Column {
-    enum class State : u8 { loading, ready }; // ready: in the dimension and lit
-    State state = State::loading;
     bool made = false;   // its absent chunks are air; else it could not be read
     bool stored = false; // all of it is in the store, so that saving its changed chunks is enough
 };
@@ -39,19 +37,11 @@ struct ServerDimension {
     std::unordered_set<ChunkPos> light_changed;
     std::unordered_set<ColumnPos> heights_changed;
     u64 opened = 0; // grows when columns come or connections change, so that interest is walked again
-    u32 loading = 0;
-};
-
-// What workers hand back to the tick.
-struct Arrived {
-    DimensionId dimension{};
-    Result<ColumnData> column;
-    ColumnPos at;
+    std::unique_ptr<GenerationScheduler> scheduler; // of columns that are wanted and not here
 };
 
 struct Mailbox {
     std::mutex mutex;
-    std::vector<Arrived> columns;
     std::vector<std::pair<u32, u32>> kept; // session, last edit sequence that is on disk
 };
 
@@ -64,7 +54,7 @@ struct ServerWorld {
     LevelRecord level;
     bool level_dirty = false;
     std::unique_ptr<WorldRecords> records;
-    // Writer thread and workers post here; it must outlive both.
+    // The writer thread posts here; it must outlive that.
     std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>();
     std::unique_ptr<SaveQueue> saves;
     std::unique_ptr<ChunkSource> source;

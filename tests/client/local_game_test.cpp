@@ -18,7 +18,7 @@ namespace {
 
 struct GameTest : testing::Test {
     fs::path folder = fs::temp_directory_path() / ("vitrail_game_" + std::to_string(getpid()));
-    std::shared_ptr<const BlockRegistry> registry;
+    Content content;
     std::unique_ptr<client::LocalGame> game;
 
     void SetUp() override {
@@ -26,7 +26,7 @@ struct GameTest : testing::Test {
         const std::vector<fs::path> roots{fs::path(VITRAIL_SOURCE_DIR) / "content/base"};
         auto loaded = load_content(roots);
         ASSERT_TRUE(loaded) << loaded.error().message;
-        registry = loaded->registry;
+        content = *loaded;
     }
     void TearDown() override {
         game.reset();
@@ -37,7 +37,7 @@ struct GameTest : testing::Test {
         options.server.folder = folder.string();
         options.server.seed = 7;
         options.replica.view_distance = 3;
-        auto opened = client::LocalGame::open(options, registry);
+        auto opened = client::LocalGame::open(options, content);
         ASSERT_TRUE(opened) << opened.error().message;
         game = std::move(*opened);
         ASSERT_TRUE(game->wait_joined(60));

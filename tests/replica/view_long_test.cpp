@@ -11,7 +11,7 @@ namespace {
 TEST(ViewLong, ServerAndReplicaOfTwelveChunksStayBelowHalfAGigabyte) {
     if (!std::getenv("VITRAIL_LONG")) GTEST_SKIP() << "VITRAIL_LONG is not set";
     const u64 before = resident_memory_bytes();
-    Play play("hills");
+    Play play("endless");
     const u64 start = now_ns();
     float slowest = 0;
     auto& ann = play.join("ann", 12);

@@ -29,7 +29,7 @@ struct Dug {
     if (!server) ::_exit(1);
     auto [near_end, far_end] = net::make_loopback();
     (*server)->connect(std::move(far_end));
-    replica::Replica ann(std::move(near_end), {"ann", 2, base_content()});
+    replica::Replica ann(std::move(near_end), {"ann", 2, base_content().registry});
     std::deque<std::pair<u32, Dug>> asked;
     std::deque<BlockPos> to_dig;
     bool ready = false;
@@ -97,7 +97,7 @@ void kill_again_and_again(u32 rounds) {
         ::waitpid(child, &status, 0);
         ASSERT_EQ(first, ssize_t(sizeof(Dug))) << "the child ended with status " << WEXITSTATUS(status);
         kept += told.size();
-        auto records = WorldRecords::open(folder.string(), base_content());
+        auto records = WorldRecords::open(folder.string(), base_content().registry);
         ASSERT_TRUE(records) << records.error().message;
         for (const Dug& at : told) {
             const BlockPos p{at.x, at.y, at.z};

@@ -16,19 +16,19 @@
 
 namespace vitrail {
 
-inline std::shared_ptr<const BlockRegistry> base_content() {
-    static const std::shared_ptr<const BlockRegistry> content = [] {
+inline const Content& base_content() {
+    static const Content content = [] {
         const std::filesystem::path roots[1] = {std::filesystem::path(VITRAIL_SOURCE_DIR) / "content/base"};
         auto loaded = load_content(roots);
         if (!loaded) throw std::runtime_error(loaded.error().message);
-        return loaded->registry;
+        return *loaded;
     }();
     return content;
 }
 
 class Play {
 public:
-    // "hills", or "" for a flat world: stone below y = 64, with whatever `carve` makes of it.
+    // "endless", or "" for a flat world: stone below y = 64, with whatever `carve` makes of it.
     using Carve = std::function<void(Dimension&)>;
     explicit Play(std::string generator = "", Carve carve = {}, i32 radius = 6) {
         folder_ = std::filesystem::temp_directory_path() /
@@ -70,7 +70,7 @@ public:
         server->connect(std::move(far_end));
         replica::ReplicaOptions options;
         options.name = name, options.view_distance = view_distance;
-        if (know_content) options.registry = base_content();
+        if (know_content) options.registry = base_content().registry;
         clients.push_back(std::make_unique<replica::Replica>(std::move(near_end), options));
         tick();
         EXPECT_TRUE(clients.back()->joined()) << clients.back()->lost_reason();
@@ -91,7 +91,7 @@ public:
             tick();
             bool busy = false;
             for (auto& [id, dimension] : world().dimensions)
-                busy |= dimension.loading > 0;
+                busy |= dimension.scheduler->pending() > 0;
             for (auto& session : world().sessions)
                 busy |= !session->wanted.empty() || !session->columns_complete ||
                         session->walked_opened != world().dimensions.at(session->dimension()).opened;
@@ -129,7 +129,7 @@ private:
         open();
         EXPECT_TRUE(server->stop());
         server.reset();
-        auto records = WorldRecords::open(folder_.string(), base_content());
+        auto records = WorldRecords::open(folder_.string(), base_content().registry);
         ASSERT_TRUE(records) << records.error().message;
         const StateId stone = *(*records)->states().intern_with_defaults(*parse_block_state("minecraft:stone"));
         Dimension dimension(DimensionInfo{}, (*records)->states_ptr());

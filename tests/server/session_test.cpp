@@ -216,7 +216,7 @@ TEST(Session, RequestsAreJudged) {
 }
 
 TEST(Session, AClientThatDoesNotReadIsDropped) {
-    Play play("hills");
+    Play play("endless");
     auto [near_end, far_end] = net::make_loopback({.queue_bytes_most = 200000, .clock = {}});
     play.server->connect(std::move(far_end));
     (void)near_end->send(net::Channel::control, net::encode_message(net::Hello{net::kProtocolVersion, "deaf", 4, 0}));
@@ -244,7 +244,7 @@ TEST(Session, WhatWasToldToBeKeptSurvivesAKilledProcess) {
             if (!server) ::_exit(1);
             auto [near_end, far_end] = net::make_loopback();
             (*server)->connect(std::move(far_end));
-            replica::Replica ann(std::move(near_end), {"ann", 2, base_content()});
+            replica::Replica ann(std::move(near_end), {"ann", 2, base_content().registry});
             u32 sequence = 0;
             for (int i = 0; i < 4000; ++i) {
                 (*server)->tick_once();
@@ -281,7 +281,7 @@ TEST(Session, WhatWasToldToBeKeptSurvivesAKilledProcess) {
         int status = 0;
         ::waitpid(child, &status, 0);
         ASSERT_EQ(got, ssize_t(sizeof place)) << "the child ended with status " << WEXITSTATUS(status);
-        auto records = WorldRecords::open(folder.string(), base_content());
+        auto records = WorldRecords::open(folder.string(), base_content().registry);
         ASSERT_TRUE(records) << records.error().message;
         const BlockPos at{place[0], place[1], place[2]};
         auto chunk = (*records)->load_chunk(DimensionId::overworld, chunk_of(at));
@@ -306,7 +306,7 @@ TEST(Session, TheServersThreadServesSeveralClientsAtOnce) {
     auto play_as = [&](const std::string& name) {
         auto [near_end, far_end] = net::make_loopback();
         (*server)->connect(std::move(far_end));
-        replica::Replica client(std::move(near_end), {name, 3, base_content()});
+        replica::Replica client(std::move(near_end), {name, 3, base_content().registry});
         bool sent = false, kept = false;
         for (int i = 0; i < 3000 && !kept && client.poll(); ++i) {
             ::usleep(5000);
