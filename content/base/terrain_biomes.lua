@@ -43,7 +43,7 @@ biome("mesa", "-.+++-", [[
 -- A lake's ice is three blocks thick here, with water below it.
 biome("frozen_wasteland", "-.++-+", "136 + 16 F(.0035)", { granite = 0, dirt = .6, snow = 1.1 }, {
   turf("grass_block[snowy=true]"),
-  { from = "water", above = "125", to = "packed_ice" },
+  { from = "water", depth = 3, to = "packed_ice" },
 })
 biome("redwood_forest", "-.++--", "134 + 8 F(.012)", {}, { GRASS })
 

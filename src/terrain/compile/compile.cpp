@@ -313,6 +313,8 @@ private:
             out_.biome_names.push_back(biome.name);
         }
         t_.biomes = u32(biomes_.size());
+        // What follows may ask for the height that comes of it all.
+        builder_.inputs[kInputHeight] = "height";
         return {};
     }
 
