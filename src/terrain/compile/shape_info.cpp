@@ -57,7 +57,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                               {{p::iceberg::radius_least, {"radius_least", 20, 6, 32}},
                                {p::iceberg::radius_most, {"radius_most", 32, 6, 32}}},
                               {{p::iceberg::ice, "ice"}, {p::iceberg::core, "core"}, {p::iceberg::snow, "snow"}}));
-    add(Shape::acacia, shape("acacia", 0, 15, 12,
+    add(Shape::acacia, shape("acacia", -1, 15, 12,
                              {{p::acacia::height_least, {"height_least", 8, 6, 12}},
                               {p::acacia::height_most, {"height_most", 12, 6, 12}}},
                              {VITRAIL_WOOD(acacia)}));
@@ -72,7 +72,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                                {p::cypress::branches_least, {"branches_least", 6, 3, 10}},
                                {p::cypress::branches_most, {"branches_most", 10, 3, 10}}},
                               {VITRAIL_WOOD(cypress)}));
-    add(Shape::birch, shape("birch", 0, 30, 6,
+    add(Shape::birch, shape("birch", -1, 30, 6,
                             {{p::birch::height_least, {"height_least", 10, 6, 17}},
                              {p::birch::height_most, {"height_most", 16, 6, 17}},
                              {p::birch::tall_share, {"tall_share", 0.08f, 0, 1}},
@@ -88,8 +88,8 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                             {p::pine::lean, {"lean", 0.35f, 0, 0.6f}}},
                            {VITRAIL_WOOD(pine)}));
     add(Shape::shrub, shape("shrub", -1, 6, 6,
-                            {{p::shrub::radius_least, {"radius_least", 1.2f, 1, 3}},
-                             {p::shrub::radius_most, {"radius_most", 2.4f, 1, 3}}},
+                            {{p::shrub::radius_least, {"radius_least", 1.5f, 1, 3}},
+                             {p::shrub::radius_most, {"radius_most", 2.6f, 1, 3}}},
                             {{p::shrub::trunk, "trunk"}, {p::shrub::leaves, "leaves"}}));
     add(Shape::rafflesia, shape("rafflesia", -3, 26, 20,
                                 {{p::rafflesia::stem_least, {"stem_least", 3, 1, 12}},
@@ -115,7 +115,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                                                    {p::mushroom::stem_z, "stem_z"},
                                                    {p::mushroom::cap, "cap"},
                                                    {p::mushroom::gills, "gills"}};
-    add(Shape::mushroom, shape("mushroom", -4, 120, 44,
+    add(Shape::mushroom, shape("mushroom", -4, 120, 28,
                                {{p::mushroom::height_least, {"height_least", 35, 20, 98}},
                                 {p::mushroom::height_most, {"height_most", 95, 20, 98}},
                                 {p::mushroom::cap_radius_least, {"cap_radius_least", 12, 8, 19}},
@@ -128,7 +128,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                                        {p::mushroom::cap_radius_most, {"cap_radius_most", 6.5f, 2.5f, 8}}},
                                       mushroom));
     add(Shape::crystal,
-        shape("crystal", -8, 64, 40,
+        shape("crystal", -8, 64, 26,
               {{p::crystal::height_least, {"height_least", 26, 5, 55}},
                {p::crystal::height_most, {"height_most", 50, 5, 55}},
                {p::crystal::radius_least, {"radius_least", 3.5f, 1, 7}},
@@ -137,7 +137,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                {p::crystal::shards_most, {"shards_most", 9, 0, 12}}},
               {{p::crystal::first, "first"}, {p::crystal::second, "second"}, {p::crystal::third, "third"}}));
     add(Shape::palm,
-        shape("palm", -2, 28, 22,
+        shape("palm", -2, 28, 16,
               {{p::palm::height_least, {"height_least", 9, 5, 18}}, {p::palm::height_most, {"height_most", 16, 5, 18}}},
               {VITRAIL_WOOD(palm)}));
     add(Shape::cactus, shape("cactus", -3, 16, 6,

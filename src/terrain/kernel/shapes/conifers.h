@@ -29,7 +29,7 @@ VX_HD_FN void build_redwood(ShapeBuilder<L>& b) {
         b.cone(from, to, 0.8f, 1.0f, b.log(p::trunk, to - from));
     }
     const float low = height * b.range(0.28f, 0.42f);
-    const float spread = 3.0f + height * b.range(0.05f, 0.075f);
+    const float spread = 3.4f + height * b.range(0.055f, 0.085f);
     const u32 tiers = 6 + u32(height * 0.09f);
     const float step = (height - 1.0f - low) / float(tiers - 1);
     for (u32 i = 0; i < tiers; ++i) {
@@ -54,7 +54,7 @@ VX_HD_FN void build_pine(ShapeBuilder<L>& b) {
     const Vec3 foot{0.5f, -2.0f, 0.5f};
     const Vec3 knee = Vec3{0.5f, height * 0.3f, 0.5f} + side * (lean * 0.9f);
     const Vec3 top = Vec3{0.5f, height, 0.5f} + side * lean;
-    b.log_spline(foot, knee, top, 0.85f, 0.6f, 3, p::trunk);
+    b.log_spline(foot, knee, top, 0.85f, 0.72f, 3, p::trunk);
     const u32 pads = 3 + b.below(3);
     Vec3 ends[6];
     for (u32 i = 0; i < pads; ++i) {
@@ -64,7 +64,7 @@ VX_HD_FN void build_pine(ShapeBuilder<L>& b) {
         const float away = turn + (i % 3 == 1 ? 0.5f : 0.0f) + b.range(-0.17f, 0.17f);
         const float out = b.range(1.6f, 3.2f) * (1.35f - 0.5f * s);
         ends[i] = from + b.around(away) * out + Vec3{0.0f, 0.5f, 0.0f};
-        b.cone(from, ends[i], 0.7f, 0.6f, b.log(p::trunk, ends[i] - from));
+        b.cone(from, ends[i], 0.72f, 0.72f, b.log(p::trunk, ends[i] - from));
     }
     for (u32 i = 0; i < pads; ++i) {
         const float r = b.range(1.7f, 2.7f);
@@ -80,8 +80,8 @@ VX_HD_FN void build_shrub(ShapeBuilder<L>& b) {
     namespace p = parts::shrub;
     const float radius = b.range(b.number(p::radius_least), b.number(p::radius_most));
     const Vec3 foot{0.5f, 0.0f, 0.5f};
-    b.cone(foot, foot + Vec3{0.0f, radius * 0.6f, 0.0f}, 0.5f, 0.5f, b.paint(p::trunk));
-    b.ball(foot + Vec3{0.0f, radius * 0.45f, 0.0f}, {radius, radius * 0.85f, radius}, b.sparse(p::leaves, 0.1f));
+    b.cone(foot, foot + Vec3{0.0f, radius * 0.3f, 0.0f}, 0.5f, 0.5f, b.paint(p::trunk));
+    b.ball(foot + Vec3{0.0f, radius * 0.45f, 0.0f}, {radius, radius * 0.85f, radius}, b.sparse(p::leaves, 0.05f));
     const u32 more = b.below(3);
     for (u32 i = 0; i < more; ++i) {
         const Vec3 away = b.around(b.unit());

@@ -26,14 +26,15 @@ VX_HD_FN void build_crystal(ShapeBuilder<L>& b) {
     const float turn = b.unit();
     const float sunk = least(2.0f + radius, 8.0f);
     const Vec3 foot{0.5f, -sunk, 0.5f};
-    build_spike(b, foot, b.towards(turn, b.range(0.2f, 0.25f)), tall + sunk, radius, body);
+    // Upright ones keep their faces smooth; the more a crystal leans, the more it is broken into steps.
+    build_spike(b, foot, b.towards(turn, b.range(0.237f, 0.25f)), tall + sunk, radius, body);
     for (u32 i = 0; i < shards; ++i) {
         const float away = turn + float(i) * 0.382f + b.range(-0.06f, 0.06f);
-        const float tilt = b.range(0.09f, 0.2f);
-        // The steeper, the longer.
-        const float size = tall * b.range(0.3f, 0.55f) * (0.35f + tilt * 3.5f) + sunk;
-        const float thick = greatest(radius * b.range(0.3f, 0.55f), 0.85f);
-        const Vec3 from = foot + b.around(away) * (radius * 0.6f);
+        const bool upright = i % 3 == 0;
+        const float tilt = upright ? b.range(0.225f, 0.245f) : b.range(0.13f, 0.2f);
+        const float size = tall * (upright ? b.range(0.4f, 0.75f) : b.range(0.22f, 0.45f)) + sunk;
+        const float thick = greatest(radius * b.range(0.36f, 0.62f), 0.85f);
+        const Vec3 from = foot + b.around(away) * (upright ? radius + thick * 0.4f : radius * 0.5f);
         build_spike(b, from, b.towards(away, tilt), size, thick, body);
     }
 }

@@ -27,7 +27,7 @@ VX_HD_FN void build_jungle_tree(ShapeBuilder<L>& b) {
         from.y = height * b.range(0.1f, 0.2f);
         b.cone(from, to, 0.72f, 0.9f, b.log(p::trunk, to - from));
     }
-    const u32 branches = 5 + b.below(3);
+    const u32 branches = 6 + b.below(3);
     Vec3 ends[8];
     for (u32 i = 0; i < branches; ++i) {
         const float s = float(i) / float(branches - 1);
@@ -40,15 +40,15 @@ VX_HD_FN void build_jungle_tree(ShapeBuilder<L>& b) {
         end.y = y + b.range(2.0f, 4.5f);
         Vec3 bow = from + (end - from) * 0.6f;
         bow.y = y + 0.5f;
-        b.log_spline(from, bow, end, 0.9f, 0.65f, 2, p::trunk);
+        b.log_spline(from, bow, end, 0.9f, 0.72f, 2, p::trunk);
         ends[i] = end;
     }
     for (u32 i = 0; i < branches; ++i) {
-        const float r = b.range(3.4f, 4.8f);
+        const float r = b.range(3.8f, 5.6f);
         b.ball(ends[i] + Vec3{0.0f, 0.6f, 0.0f}, {r, r * b.range(0.45f, 0.6f), r},
                b.wobbly(b.sparse(p::leaves, 0.08f), 0.6f));
     }
-    const float r = 3.5f + height * 0.06f;
+    const float r = 4.0f + height * 0.075f;
     b.ball(top + Vec3{0.0f, 0.5f, 0.0f}, {r, r * 0.55f, r}, b.wobbly(b.sparse(p::leaves, 0.08f), 0.6f));
     for (u32 i = 0; i < 2; ++i) {
         const Vec3 aside = b.around(turn + 0.5f * float(i) + b.range(0.0f, 0.2f)) * (r * 0.55f);
@@ -67,7 +67,7 @@ VX_HD_FN void build_small_jungle_tree(ShapeBuilder<L>& b) {
     const Vec3 foot{0.5f, -1.0f, 0.5f};
     const Vec3 bend = b.around(turn) * (height * b.range(0.0f, 0.16f));
     const Vec3 knee = Vec3{0.5f, height * 0.5f, 0.5f} + bend, top = Vec3{0.5f, height, 0.5f} + bend * 0.7f;
-    b.log_spline(foot, knee, top, 0.75f, 0.65f, 2, p::trunk);
+    b.log_spline(foot, knee, top, 0.75f, 0.72f, 2, p::trunk);
     const u32 clouds = (height > 6.0f ? 2 : 1) + b.below(2);
     Vec3 ends[4];
     for (u32 i = 0; i < clouds; ++i) {
@@ -77,7 +77,7 @@ VX_HD_FN void build_small_jungle_tree(ShapeBuilder<L>& b) {
         const float out = crown * b.range(0.6f, 0.95f);
         const float up = crown * b.range(0.1f, 0.4f);
         ends[i] = from + b.around(away) * out + Vec3{0.0f, up, 0.0f};
-        if (height > 6.0f) b.cone(from, ends[i], 0.7f, 0.6f, b.log(p::trunk, ends[i] - from));
+        if (height > 6.0f) b.cone(from, ends[i], 0.72f, 0.72f, b.log(p::trunk, ends[i] - from));
     }
     for (u32 i = 0; i < clouds; ++i) {
         const float r = crown * b.range(0.6f, 0.8f);
@@ -97,27 +97,28 @@ VX_HD_FN void build_rafflesia(ShapeBuilder<L>& b) {
     const Vec3 foot{0.5f, -2.0f, 0.5f};
     const Vec3 head = Vec3{0.5f, stem, 0.5f} + b.around(turn) * b.range(0.0f, 1.5f);
     b.cone(foot, head, petal * 0.16f, petal * 0.13f, b.paint(p::stem));
-    const float bowl = petal * 0.34f;
-    // The bowl: a floor that glows, within a rim of petal.
-    const Vec3 floor = head + Vec3{0.0f, 0.6f, 0.0f};
-    b.ball(floor, {bowl * 0.85f, 1.1f, bowl * 0.85f}, b.paint(p::core));
-    const u32 rim = 8;
+    const float bowl = petal * 0.36f;
+    // The bowl: a floor that glows, within a rim.
+    b.ball(head + Vec3{0.0f, 0.5f, 0.0f}, {bowl * 0.8f, 1.2f, bowl * 0.8f}, b.paint(p::core));
+    const u32 rim = 10;
+    const float lip = bowl * 0.3f + 0.5f;
     for (u32 i = 0; i < rim; ++i) {
         const Vec3 at = head + b.around(turn + float(i) / float(rim)) * bowl;
-        b.ball(at + Vec3{0.0f, 1.0f, 0.0f}, {bowl * 0.42f + 0.3f, 1.7f, bowl * 0.42f + 0.3f}, b.paint(p::petal));
+        b.ball(at + Vec3{0.0f, 1.1f, 0.0f}, {lip, 1.5f, lip}, b.paint(p::petal));
     }
-    const float rise = b.range(0.1f, 0.3f) * petal;
+    // Petals rise a little and droop at their ends; no two alike, all flecked with the core.
+    const float rise = b.range(0.06f, 0.2f) * petal;
     for (u32 i = 0; i < 5; ++i) {
-        const Vec3 away = b.around(turn + 0.2f * (float(i) + b.range(-0.12f, 0.12f)));
-        const float long_by = b.range(0.9f, 1.1f);
-        const float width = petal * b.range(0.28f, 0.34f);
-        const Vec3 from = head + away * (bowl * 1.1f);
-        const Vec3 middle = head + away * (petal * 0.85f * long_by) + Vec3{0.0f, rise, 0.0f};
-        const Vec3 tip = head + away * (petal * 1.3f * long_by) + Vec3{0.0f, rise * b.range(-0.6f, 0.5f), 0.0f};
-        const Brush flesh = b.paint(p::petal, p::core, 0.07f);
-        b.ball(from + (middle - from) * 0.35f, {width, 1.2f, width}, flesh);
-        b.ball(middle, {width * 1.15f, 1.3f, width * 1.15f}, flesh);
-        b.ball(tip, {width * 0.8f, 1.1f, width * 0.8f}, flesh);
+        const Vec3 away = b.around(turn + 0.2f * (float(i) + b.range(-0.06f, 0.06f)));
+        const float far = petal * b.range(0.95f, 1.1f);
+        const float width = petal * b.range(0.36f, 0.42f);
+        const Vec3 middle = head + away * (far * 0.72f) + Vec3{0.0f, rise, 0.0f};
+        const Vec3 tip = head + away * (far * 1.12f) + Vec3{0.0f, rise - b.range(0.3f, 1.6f), 0.0f};
+        const Brush flesh = b.paint(p::petal, p::core, 0.06f);
+        b.cone(head, middle, 1.2f, 1.2f, b.paint(p::petal));
+        b.ball(middle, {width, 1.25f, width}, flesh);
+        b.ball(middle + (tip - middle) * 0.5f, {width * 0.9f, 1.2f, width * 0.9f}, flesh);
+        b.ball(tip, {width * 0.62f, 1.1f, width * 0.62f}, flesh);
     }
     for (u32 i = 0; i < 4; ++i) { // leaves at the foot
         const Vec3 away = b.around(turn + 0.25f * float(i) + b.range(0.0f, 0.15f));

@@ -45,9 +45,10 @@ VX_HD_FN void build_mushroom(ShapeBuilder<L>& b) {
     // The stem ends inside the cap's shell.
     const Vec3 end = top + Vec3{0.0f, rise - shell, 0.0f};
     b.spline(foot, low, high, end, thick * 1.15f, thick * 0.75f, 7, b.paint(p::stem));
-    if (b.chance(0.6f)) // what is left of the veil
-        b.dome(top - Vec3{0.0f, 3.5f + radius * 0.15f, 0.0f}, {thick + 3.0f, 2.4f, thick + 3.0f}, 1.2f,
-               b.paint(p::cap));
+    if (b.chance(0.4f)) { // what is left of the veil, a skirt on the stem
+        const Vec3 at = b.curve(foot, low, high, end, b.range(0.6f, 0.8f));
+        b.dome(at, {thick + 2.6f, 2.6f, thick + 2.6f}, 1.2f, b.paint(p::gills));
+    }
     build_mushroom_cap(b, top, radius, rise, shell, 8, 0.5f);
 }
 

@@ -17,20 +17,21 @@ VX_HD_FN void build_palm(ShapeBuilder<L>& b) {
     const Vec3 foot{0.5f, -1.5f, 0.5f};
     const Vec3 knee = Vec3{0.5f, height * 0.45f, 0.5f} + side * (lean * 0.9f);
     const Vec3 top = Vec3{0.5f, height, 0.5f} + side * lean;
-    b.log_spline(foot, knee, top, 0.95f, 0.62f, 4, p::trunk);
-    const u32 fronds = 7 + b.below(3);
-    const float reach = 4.0f + height * 0.14f;
+    b.log_spline(foot, knee, top, 0.78f, 0.72f, 4, p::trunk);
+    const u32 fronds = 8 + b.below(3);
+    const float reach = 4.6f + height * 0.13f;
+    const Vec3 from = top + Vec3{0.0f, 0.6f, 0.0f};
     for (u32 i = 0; i < fronds; ++i) {
-        const Vec3 away = b.around(turn + (float(i) + b.range(-0.25f, 0.25f)) / float(fronds));
-        const float out = reach * b.range(0.8f, 1.1f);
-        const float up = b.range(0.8f, 2.4f); // old fronds hang, young ones stand
-        const Vec3 from = top + Vec3{0.0f, 0.4f, 0.0f};
-        const Vec3 bow = from + away * (out * 0.55f) + Vec3{0.0f, up, 0.0f};
-        const Vec3 tip = from + away * out + Vec3{0.0f, up - b.range(2.2f, 4.0f), 0.0f};
-        b.cone(from, bow, 0.75f, 0.85f, b.paint(p::leaves));
-        b.cone(bow, tip, 0.85f, 0.5f, b.sparse(p::leaves, 0.05f));
+        const Vec3 away = b.around(turn + (float(i) + b.range(-0.2f, 0.2f)) / float(fronds));
+        const bool old = i % 3 == 2; // old fronds hang, young ones stand and arch
+        const float out = reach * b.range(0.85f, 1.1f) * (old ? 0.72f : 1.0f);
+        const float up = old ? b.range(-0.2f, 0.5f) : b.range(1.0f, 2.2f);
+        const float fall = b.range(2.0f, 3.4f) + (old ? 1.2f : 0.0f);
+        const Vec3 bow = from + away * (out * 0.6f) + Vec3{0.0f, up, 0.0f};
+        const Vec3 tip = from + away * out + Vec3{0.0f, up - fall, 0.0f};
+        b.cone(from, bow, 0.72f, 0.8f, b.paint(p::leaves));
+        b.cone(bow, tip, 0.8f, 0.62f, b.paint(p::leaves));
     }
-    b.cone(top, top + Vec3{0.0f, 1.6f, 0.0f}, 1.1f, 0.5f, b.paint(p::leaves));
 }
 
 } // namespace vitrail

@@ -28,8 +28,8 @@ VX_HD_FN void build_acacia(ShapeBuilder<L>& b) {
         end.y = rise;
         // Limbs leave level and turn upwards.
         const Vec3 knee = fork + (end - fork) * 0.6f - Vec3{0.0f, 0.8f, 0.0f};
-        b.cone(fork, knee, 0.7f, 0.7f, b.log(p::trunk, knee - fork));
-        b.cone(knee, end, 0.7f, 0.6f, b.log(p::trunk, end - knee));
+        b.cone(fork, knee, 0.72f, 0.72f, b.log(p::trunk, knee - fork));
+        b.cone(knee, end, 0.72f, 0.72f, b.log(p::trunk, end - knee));
         ends[i] = end;
     }
     for (u32 i = 0; i < limbs; ++i) {

@@ -46,7 +46,7 @@ VX_HD_FN void build_cypress(ShapeBuilder<L>& b) {
         Vec3 end = from + b.around(away) * out;
         end.y = y + height * 0.05f + b.range(0.0f, 2.0f);
         const Vec3 bow = from + (end - from) * 0.5f + Vec3{0.0f, -0.8f, 0.0f};
-        b.log_spline(from, bow, end, 0.85f, 0.6f, 2, p::trunk);
+        b.log_spline(from, bow, end, 0.85f, 0.72f, 2, p::trunk);
         ends[i] = end;
     }
     for (u32 i = 0; i < branches; ++i) {
