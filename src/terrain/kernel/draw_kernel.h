@@ -57,25 +57,30 @@ VX_HD typename L::M draw_row(const TerrainTables& t, const Primitive& s, const S
                              RandomKey key, const Row<L>& row, i32 y, typename L::U room, typename L::U& block) {
     using F = typename L::F;
     using U = typename L::U;
+    using M = typename L::M;
     const F lane = row.dx;
-    auto in = ((room & solid_takes(s.flags)) != L::u(0)) & (lane >= L::f(float(span.first_x))) &
-              (lane <= L::f(float(span.last_x)));
+    const M wanted = (room & solid_takes(s.flags)) != L::u(0);
+    const M from = lane >= L::f(float(span.first_x)), to = lane <= L::f(float(span.last_x));
+    M in = wanted & from & to;
     if (!L::any(in)) return in;
     const F x = lane + (float(span.dx) + 0.5f);
     F d = solid_distance<L>(s, frame, x, L::f(float(y - span.y) + 0.5f), L::f(row.dz + (float(span.dz) + 0.5f)));
     if (s.wobble > 0.0f) {
         // Noise counts only near the surface: elsewhere it cannot change the sign.
-        if (L::any(in & (absolute<L>(d) <= L::f(s.wobble)))) {
+        const M near = absolute<L>(d) <= L::f(s.wobble);
+        if (L::any(in & near)) {
             const Noise noise = t.noise[s.noise];
             const F n = fractal3<L>(&t.octave[noise.first], noise.octaves, row.spot(L::f(float(y))));
             d = d + greatest(least(n, L::f(1.0f)), L::f(-1.0f)) * s.wobble;
         }
     }
-    in = in & (d < L::f(0.0f));
+    const M inside = d < L::f(0.0f);
+    in = in & inside;
     block = L::u(s.block);
     if ((s.missing_share | s.other_share) != 0 && L::any(in)) {
         const U bits = random_bits(key, row.block_x(), L::u(u32(y)), row.block_z());
-        in = in & ((bits & 255u) >= L::u(s.missing_share));
+        const M kept = (bits & 255u) >= L::u(s.missing_share);
+        in = in & kept;
         block = select((bits >> 8 & 255u) < L::u(s.other_share), L::u(s.other), block);
     }
     return in;
