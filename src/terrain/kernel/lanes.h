@@ -1,7 +1,8 @@
-// Lanes: one kernel source for 16 block columns at a time on a CPU and for one a thread on a GPU. A kernel is a template
-// over L, with L::F floats, L::I and L::U 32-bit integers, L::M masks; operators are those of the types, the functions
-// below are the rest. Scalar numbers on the right of an operator spread over all lanes; L::f(v), L::i(v), L::u(v) spread
-// by hand. Every operation is exact or rounded as IEEE 754 says, so that all lane types give the same bits.
+// Lanes: one kernel source for 16 block columns at a time on a CPU and for one a thread on a GPU. A kernel is a
+// template over L, with L::F floats, L::I and L::U 32-bit integers, L::M masks; operators are those of the types, the
+// functions below are the rest. Scalar numbers on the right of an operator spread over all lanes; L::f(v), L::i(v),
+// L::u(v) spread by hand. Every operation is exact or rounded as IEEE 754 says, so that all lane types give the same
+// bits.
 #pragma once
 
 #include "base/hd.h"
@@ -34,14 +35,40 @@ struct ScalarLanes {
     static VX_HD bool all(M m) { return m; }
 };
 
-VX_HD float select(bool m, float a, float b) { return m ? a : b; }
-VX_HD i32 select(bool m, i32 a, i32 b) { return m ? a : b; }
-VX_HD u32 select(bool m, u32 a, u32 b) { return m ? a : b; }
-VX_HD i32 to_int(float v) { return i32(v); } // towards zero; the value must fit
-VX_HD float to_float(i32 v) { return float(v); }
-VX_HD float to_float(u32 v) { return float(i32(v)); } // below 2^31
-VX_HD u32 as_uint(i32 v) { return u32(v); }
-VX_HD i32 as_int(u32 v) { return i32(v); }
+VX_HD float select(bool m, float a, float b) {
+    return m ? a : b;
+}
+VX_HD i32 select(bool m, i32 a, i32 b) {
+    return m ? a : b;
+}
+VX_HD u32 select(bool m, u32 a, u32 b) {
+    return m ? a : b;
+}
+VX_HD i32 to_int(float v) {
+    return i32(v);
+} // towards zero; the value must fit
+VX_HD float to_float(i32 v) {
+    return float(v);
+}
+VX_HD float to_float(u32 v) {
+    return float(i32(v));
+} // below 2^31
+VX_HD u32 as_uint(i32 v) {
+    return u32(v);
+}
+VX_HD i32 as_int(u32 v) {
+    return i32(v);
+}
+VX_HD u32 float_bits(float v) {
+    u32 bits;
+    __builtin_memcpy(&bits, &v, sizeof bits);
+    return bits;
+}
+VX_HD float float_of_bits(u32 bits) {
+    float v;
+    __builtin_memcpy(&v, &bits, sizeof v);
+    return v;
+}
 VX_HD float square_root(float v) {
 #ifdef __CUDACC__
     return sqrtf(v);
@@ -96,20 +123,43 @@ struct WideLanes {
     static VX_HD bool all(M m) { return !any(~m); }
 };
 
-VX_HD FloatLanes select(IntLanes m, FloatLanes a, FloatLanes b) { return m ? a : b; }
-VX_HD IntLanes select(IntLanes m, IntLanes a, IntLanes b) { return m ? a : b; }
-VX_HD UintLanes select(IntLanes m, UintLanes a, UintLanes b) { return m ? a : b; }
-VX_HD IntLanes to_int(FloatLanes v) { return __builtin_convertvector(v, IntLanes); }
-VX_HD FloatLanes to_float(IntLanes v) { return __builtin_convertvector(v, FloatLanes); }
-VX_HD FloatLanes to_float(UintLanes v) { return __builtin_convertvector((IntLanes)v, FloatLanes); }
-VX_HD UintLanes as_uint(IntLanes v) { return (UintLanes)v; }
-VX_HD IntLanes as_int(UintLanes v) { return (IntLanes)v; }
+VX_HD FloatLanes select(IntLanes m, FloatLanes a, FloatLanes b) {
+    return m ? a : b;
+}
+VX_HD IntLanes select(IntLanes m, IntLanes a, IntLanes b) {
+    return m ? a : b;
+}
+VX_HD UintLanes select(IntLanes m, UintLanes a, UintLanes b) {
+    return m ? a : b;
+}
+VX_HD IntLanes to_int(FloatLanes v) {
+    return __builtin_convertvector(v, IntLanes);
+}
+VX_HD FloatLanes to_float(IntLanes v) {
+    return __builtin_convertvector(v, FloatLanes);
+}
+VX_HD FloatLanes to_float(UintLanes v) {
+    return __builtin_convertvector((IntLanes)v, FloatLanes);
+}
+VX_HD UintLanes as_uint(IntLanes v) {
+    return (UintLanes)v;
+}
+VX_HD IntLanes as_int(UintLanes v) {
+    return (IntLanes)v;
+}
+VX_HD UintLanes float_bits(FloatLanes v) {
+    return (UintLanes)v;
+}
+VX_HD FloatLanes float_of_bits(UintLanes bits) {
+    return (FloatLanes)bits;
+}
 VX_HD FloatLanes square_root(FloatLanes v) {
 #if defined(__clang__)
     return __builtin_elementwise_sqrt(v);
 #else
     FloatLanes r;
-    for (int i = 0; i < 16; ++i) r[i] = __builtin_sqrtf(v[i]);
+    for (int i = 0; i < 16; ++i)
+        r[i] = __builtin_sqrtf(v[i]);
     return r;
 #endif
 }
@@ -123,6 +173,11 @@ VX_HD F least(F a, F b) {
 template <class F>
 VX_HD F greatest(F a, F b) {
     return select(a > b, a, b);
+}
+// The other sign where the highest of the bits is set.
+template <class F, class U>
+VX_HD F flip_sign(F v, U bits) {
+    return float_of_bits(float_bits(v) ^ (bits & 0x80000000u));
 }
 // (template over L for what needs constants)
 template <class L>
@@ -145,7 +200,8 @@ VX_HD typename L::F step_between(float a, float b, typename L::F v) {
     const typename L::F t = clamp01<L>((v - a) * (1.0f / (b - a)));
     return t * t * (3.0f - 2.0f * t);
 }
-// With edges of its own in each lane. Another name, because with one lane the two would be the same function with other bits.
+// With edges of its own in each lane. Another name, because with one lane the two would be the same function with other
+// bits.
 template <class L>
 VX_HD typename L::F step_between_lanes(typename L::F a, typename L::F b, typename L::F v) {
     const typename L::F t = clamp01<L>((v - a) / (b - a));
