@@ -15,7 +15,8 @@ using namespace terrain_values;
 namespace {
 
 // The same kind of bound as that of the tables, so that a script that adds rows without end is told so where it stands.
-constexpr std::size_t kLayersMost = kStrataMost + kLooseMost, kRulesOfOneMost = 24, kBandsMost = 32, kColumnLayersMost = 8;
+constexpr std::size_t kLayersMost = kStrataMost + kLooseMost, kRulesOfOneMost = 24, kBandsMost = 32,
+                      kColumnLayersMost = 8;
 
 constexpr const char* kFeaturePlaces[] = {"surface", "sea_floor", "sea_surface", "cave_floor", "cave_ceiling"};
 constexpr const char* kDecoratorPlaces[] = {"surface", "sea_floor", "cave_floor", "cave_ceiling"};
@@ -168,14 +169,17 @@ Result<> TerrainReader::define_layer(std::span<const Value> arguments) {
                                                          {"repose", number(layer.repose_degrees, 1, 89)},
                                                          {"steepest", number(layer.steepest, 0.01, 100)},
                                                          {"over", word(over)}})));
-    if (layer.loose && (layer.hung || layer.remainder)) return bad(row + ": what is loose neither hangs nor takes the remainder");
-    if (!layer.loose && layer.amplitude > 0 && layer.frequency == 0) return bad(row + ": amplitude: there is no frequency");
+    if (layer.loose && (layer.hung || layer.remainder))
+        return bad(row + ": what is loose neither hangs nor takes the remainder");
+    if (!layer.loose && layer.amplitude > 0 && layer.frequency == 0)
+        return bad(row + ": amplitude: there is no frequency");
     std::vector<TerrainDescription::Layer>& layers = description_.layers;
     if (over.empty()) return named(row, put(layers, std::move(layer), kLayersMost, "layers"));
     std::erase_if(layers, [&](const auto& old) { return old.name == layer.name; });
     const auto below = std::find_if(layers.begin(), layers.end(), [&](const auto& l) { return l.name == over; });
     if (below == layers.end()) return bad(fmt::format("{}: over: there is no layer {}", row, over));
-    if (layers.size() >= kLayersMost) return fail(ErrorCode::limit, fmt::format("{}: more than {} layers", row, kLayersMost));
+    if (layers.size() >= kLayersMost)
+        return fail(ErrorCode::limit, fmt::format("{}: more than {} layers", row, kLayersMost));
     layers.insert(below + 1, std::move(layer));
     return {};
 }
@@ -207,24 +211,24 @@ Result<> TerrainReader::define_feature(std::span<const Value> arguments) {
     TerrainDescription::Feature f;
     VX_TRY_ASSIGN(f.name, read_row_name(arguments, "terrain feature", true));
     const std::string row = row_name("terrain feature", f.name);
-    VX_TRY(named(row, read_keys(argument(arguments, 1),
-                                {{"shape", word(f.shape), true},
-                                 {"place", word_of(f.place, kFeaturePlaces)},
-                                 {"biome", name(f.biome, "a biome's name"), true},
-                                 {"cell", whole(f.cell, 1, 1024), true},
-                                 {"padding", whole(f.padding, 0, 512)},
-                                 {"chance", number(f.chance, 0, 1)},
-                                 {"layers", words(f.layers)},
-                                 {"least_thickness", number(f.least_thickness, 0, 384)},
-                                 {"lowest_y", whole(f.lowest_y, kTerrainMinY, kTerrainMaxY)},
-                                 {"highest_y", whole(f.highest_y, kTerrainMinY, kTerrainMaxY)},
-                                 {"least_height", whole(f.least_height, 0, kTerrainHeight)},
-                                 {"water_depth", whole(f.water_depth, 0, kTerrainSeaLevel)},
-                                 {"numbers", numbers(f.numbers, -1000, 1000)},
-                                 {"blocks", named_blocks(f.blocks)}})));
+    VX_TRY(named(row, read_keys(argument(arguments, 1), {{"shape", word(f.shape), true},
+                                                         {"place", word_of(f.place, kFeaturePlaces)},
+                                                         {"biome", name(f.biome, "a biome's name"), true},
+                                                         {"cell", whole(f.cell, 1, 1024), true},
+                                                         {"padding", whole(f.padding, 0, 512)},
+                                                         {"chance", number(f.chance, 0, 1)},
+                                                         {"layers", words(f.layers)},
+                                                         {"least_thickness", number(f.least_thickness, 0, 384)},
+                                                         {"lowest_y", whole(f.lowest_y, kTerrainMinY, kTerrainMaxY)},
+                                                         {"highest_y", whole(f.highest_y, kTerrainMinY, kTerrainMaxY)},
+                                                         {"least_height", whole(f.least_height, 0, kTerrainHeight)},
+                                                         {"water_depth", whole(f.water_depth, 0, kTerrainSeaLevel)},
+                                                         {"numbers", numbers(f.numbers, -1000, 1000)},
+                                                         {"blocks", named_blocks(f.blocks)}})));
     if (2 * f.padding >= f.cell) return bad(fmt::format("{}: padding: nothing is left of the cell", row));
     if (f.lowest_y > f.highest_y) return bad(fmt::format("{}: lowest_y is above highest_y", row));
-    if (f.layers.size() > kColumnLayersMost) return bad(fmt::format("{}: layers: more than {}", row, kColumnLayersMost));
+    if (f.layers.size() > kColumnLayersMost)
+        return bad(fmt::format("{}: layers: more than {}", row, kColumnLayersMost));
     return named(row, put(description_.features, std::move(f), kFeaturesMost, "features"));
 }
 
@@ -244,7 +248,8 @@ Result<> TerrainReader::define_decorator(std::span<const Value> arguments) {
             return {};
         }
     if (description_.decorators.size() >= kDecoratorsMost)
-        return fail(ErrorCode::limit, fmt::format("decorator of {}: more than {} decorators", d.biome, kDecoratorsMost));
+        return fail(ErrorCode::limit,
+                    fmt::format("decorator of {}: more than {} decorators", d.biome, kDecoratorsMost));
     description_.decorators.push_back(std::move(d));
     return {};
 }
@@ -260,7 +265,8 @@ public:
 
     Result<> check() const {
         for (const auto& a : d_.attributes)
-            if (!has(d_.fields, a.field)) return bad(fmt::format("terrain attribute {}: there is no field {}", a.name, a.field));
+            if (!has(d_.fields, a.field))
+                return bad(fmt::format("terrain attribute {}: there is no field {}", a.name, a.field));
         VX_TRY(materials("terrain", d_.materials));
         for (const auto& layer : d_.layers)
             VX_TRY(named(row_name("terrain layer", layer.name), block_there(layer.block)));
@@ -314,8 +320,10 @@ private:
         if (id == BlockId::unknown) return bad(fmt::format("there is no block {}", state.name));
         for (const auto& [property, value] : state.properties) {
             const auto& known = registry_.blocks()[std::size_t(id)].properties;
-            const auto found = std::find_if(known.begin(), known.end(), [&](const PropertyDef& p) { return p.name == property; });
-            if (found == known.end() || std::find(found->values.begin(), found->values.end(), value) == found->values.end())
+            const auto found =
+                std::find_if(known.begin(), known.end(), [&](const PropertyDef& p) { return p.name == property; });
+            if (found == known.end() ||
+                std::find(found->values.begin(), found->values.end(), value) == found->values.end())
                 return bad(fmt::format("block {} has no {}={}", state.name, property, value));
         }
         return {};

@@ -81,7 +81,8 @@ Result<> read_keys(const Value& value, std::span<const Key> keys) {
 Result<> read_list(const Value& list, std::size_t most, const Read& read) {
     if (!list.table() || !list.table()->is_list()) return expected("a list", list);
     if (list.table()->entries.size() > most)
-        return fail(ErrorCode::limit, fmt::format("{} entries, at most {} are allowed", list.table()->entries.size(), most));
+        return fail(ErrorCode::limit,
+                    fmt::format("{} entries, at most {} are allowed", list.table()->entries.size(), most));
     for (const auto& [key, value] : list.table()->entries)
         VX_TRY(named("[" + key.text() + "]", read(value)));
     return {};
@@ -208,7 +209,8 @@ Read words(std::vector<std::string>& out) {
 
 Read numbers(std::map<std::string, float>& out, double least, double most) {
     return [&out, least, most](const Value& value) {
-        return read_map(value, [&](const std::string& key, const Value& v) { return number(out[key], least, most)(v); });
+        return read_map(value,
+                        [&](const std::string& key, const Value& v) { return number(out[key], least, most)(v); });
     };
 }
 

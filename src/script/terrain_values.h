@@ -22,7 +22,8 @@ struct Key {
 inline constexpr std::size_t kExpressionSizeMost = 2000; // bytes, as in terrain/compile/expression.h
 inline constexpr std::size_t kListMost = 64;             // blocks of a list
 
-// Every key of the table must be among `keys`; those that are needed must be there. Errors: invalid_argument, "key: what".
+// Every key of the table must be among `keys`; those that are needed must be there. Errors: invalid_argument, "key:
+// what".
 Result<> read_keys(const lua::Value& table, std::span<const Key> keys);
 inline Result<> read_keys(const lua::Value& table, std::initializer_list<Key> keys) {
     return read_keys(table, std::span<const Key>(keys.begin(), keys.size()));
@@ -50,7 +51,7 @@ Read blocks(std::vector<std::string>& out, std::size_t most); // a list
 // One block or a list; "ground", "rock", "loose" and "water" stand for sets.
 Read block_set(std::vector<std::string>& out);
 bool is_block_word(std::string_view text);
-Read words(std::vector<std::string>& out); // one or a list
+Read words(std::vector<std::string>& out);                                  // one or a list
 Read numbers(std::map<std::string, float>& out, double least, double most); // word = number
 Read named_blocks(std::map<std::string, std::string>& out);                 // word = block
 

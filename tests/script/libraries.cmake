@@ -1,0 +1,1 @@
+target_link_libraries(test_script PRIVATE vitrail_terrain)
