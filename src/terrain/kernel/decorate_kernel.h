@@ -16,24 +16,24 @@
 
 namespace vitrail {
 
-inline constexpr u32 kDecoratorPlaces = 4;
+inline constexpr u32 kDecoratorPlaceCount = 4;
 inline constexpr u64 kDecoratePurpose = 0x6465636f72617465ull; // names the random numbers
 inline constexpr u8 kNoDecorator = 255;
 static_assert(kDecoratorsMost <= kNoDecorator && kCaveBiomesMost <= kBiomesMost);
 
 // Rows by place and biome; made from the tables alone.
 struct DecoratorIndex {
-    RandomKey key[kDecoratorPlaces];
-    float most[kDecoratorPlaces];               // the largest `total`
-    float total[kDecoratorPlaces][kBiomesMost]; // sum of the chances
-    u8 first[kDecoratorPlaces][kBiomesMost];    // row, or kNoDecorator
+    RandomKey key[kDecoratorPlaceCount];
+    float most[kDecoratorPlaceCount];               // the largest `total`
+    float total[kDecoratorPlaceCount][kBiomesMost]; // sum of the chances
+    u8 first[kDecoratorPlaceCount][kBiomesMost];    // row, or kNoDecorator
     u8 next[kDecoratorsMost];                   // further row of the same place and biome
 };
 
 // L keeps code for different vector sets apart.
 template <class L>
 VX_HD_FN void make_decorator_index(const TerrainTables& t, DecoratorIndex& out) {
-    for (u32 p = 0; p < kDecoratorPlaces; ++p) {
+    for (u32 p = 0; p < kDecoratorPlaceCount; ++p) {
         out.key[p] = random_key(t.seed, hash_combine(kDecoratePurpose, p));
         out.most[p] = 0;
         for (u32 b = 0; b < kBiomesMost; ++b) {
@@ -124,10 +124,10 @@ VX_HD_FN i32 decorate_row(const TerrainTables& t, const DecoratorIndex& index, c
     using namespace decorate_detail;
     const U x = row.block_x(), z = row.block_z();
     i32 y[L::kWidth];
-    u32 biome[L::kWidth], bits[kDecoratorPlaces][L::kWidth];
+    u32 biome[L::kWidth], bits[kDecoratorPlaceCount][L::kWidth];
     L::store(y, block_above<L>(L::load(ground.top + row.index)));
     L::store(biome, surface_biome_row<L>(t, ground, row));
-    for (u32 p = 0; p < kDecoratorPlaces; ++p)
+    for (u32 p = 0; p < kDecoratorPlaceCount; ++p)
         L::store(bits[p], random_bits(index.key[p], x, z));
     i32 end = 0;
     for (i32 l = 0; l < L::kWidth; ++l) {
