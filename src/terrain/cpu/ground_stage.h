@@ -115,6 +115,7 @@ private:
 
     u32 lay_column(i32 x, i32 z) {
         const LandTile& tile = land(x, z);
+        const LandTile& next = land(x + 1 < columns_x_ + 2 * kGroundReach ? x + 1 : x, z);
         u32 layers = 0;
         // The outermost row has no neighbor to tell its slope, and nobody feels it.
         const i32 last = z == columns_z_ + 2 * kGroundReach - 1 ? 15 : 16;
@@ -122,6 +123,8 @@ private:
             const i32 at = offset(x, z * 16 + row);
             F attribute[kAttributesMost], loose[kLooseMost];
             load_attributes<L>(t_, tile, row * 16, attribute);
+            for (u32 i = 0; i < t_.attributes; ++i)
+                __builtin_prefetch(next.attribute[i] + row * 16); // tiles lie anywhere, mostly outside the near caches
             lay_loose<L>(t_, attribute, slope_at<L>(m_.height + at, Scratch::kStride), loose);
             const F rock = rock_below<L>(t_, L::load(m_.height + at), loose);
             L::store(m_.floor + at, rock);

@@ -19,13 +19,38 @@ VX_HD typename L::F wants_weight(const i8* wants, u32 attributes, const typename
     return weight;
 }
 
+// Attributes that are 0 or 1 in every lane: most are, as thresholds are narrow, and most biomes then have no weight at
+// all. Skipping those is exact: a weight of 0 changes no sum, no draw and no maximum.
+struct SettledAttributes {
+    u64 none = 0; // 0x01 in byte i: attribute i is 0
+    u64 full = 0; // 0x80 in byte i: attribute i is 1
+};
+template <class L>
+VX_HD SettledAttributes settled_attributes(u32 attributes, const typename L::F* attribute) {
+    SettledAttributes settled;
+    for (u32 i = 0; i < attributes; ++i) {
+        if (!L::any(attribute[i] != L::f(0.0f))) settled.none |= u64(0x01) << 8 * i;
+        if (!L::any(attribute[i] != L::f(1.0f))) settled.full |= u64(0x80) << 8 * i;
+    }
+    return settled;
+}
+// Whether a factor of the weight is 0 in every lane; all eight wants at once, byte by byte: 1, 0 or -1.
+VX_HD bool weightless(const i8* wants, SettledAttributes settled) {
+    static_assert(kAttributesMost == 8, "a row's wants fill a u64");
+    u64 bytes;
+    __builtin_memcpy(&bytes, wants, sizeof bytes);
+    const u64 against = bytes & 0x8080808080808080u, for_it = bytes & 0x0101010101010101u & ~(against >> 7);
+    return ((for_it & settled.none) | (against & settled.full)) != 0;
+}
+
 namespace biome_detail {
 
 template <class L, class BiomeRow>
 VX_HD_FN typename L::F weight_sum(const BiomeRow* rows, u32 count, u32 attributes, const typename L::F* attribute) {
+    const SettledAttributes settled = settled_attributes<L>(attributes, attribute);
     typename L::F sum = L::f(0.0f);
     for (u32 b = 0; b < count; ++b)
-        sum = sum + wants_weight<L>(rows[b].wants, attributes, attribute);
+        if (!weightless(rows[b].wants, settled)) sum = sum + wants_weight<L>(rows[b].wants, attributes, attribute);
     return sum;
 }
 
@@ -34,10 +59,12 @@ template <class L, class BiomeRow>
 VX_HD_FN typename L::U pick(const BiomeRow* rows, u32 count, u32 attributes, const typename L::F* attribute,
                             typename L::F unit) {
     using F = typename L::F;
+    const SettledAttributes settled = settled_attributes<L>(attributes, attribute);
     const F place = unit * weight_sum<L>(rows, count, attributes, attribute);
     typename L::U picked = L::u(0);
     F begin = L::f(0.0f);
     for (u32 b = 0; b < count; ++b) {
+        if (weightless(rows[b].wants, settled)) continue;
         const F weight = wants_weight<L>(rows[b].wants, attributes, attribute);
         picked = select((weight > L::f(0.0f)) & (begin <= place), L::u(b), picked);
         begin = begin + weight;
@@ -49,9 +76,11 @@ VX_HD_FN typename L::U pick(const BiomeRow* rows, u32 count, u32 attributes, con
 template <class L, class BiomeRow>
 VX_HD_FN typename L::U strongest(const BiomeRow* rows, u32 count, u32 attributes, const typename L::F* attribute) {
     using F = typename L::F;
+    const SettledAttributes settled = settled_attributes<L>(attributes, attribute);
     typename L::U found = L::u(0);
     F most = L::f(0.0f);
     for (u32 b = 0; b < count; ++b) {
+        if (weightless(rows[b].wants, settled)) continue;
         const F weight = wants_weight<L>(rows[b].wants, attributes, attribute);
         found = select(weight > most, L::u(b), found);
         most = greatest(weight, most);

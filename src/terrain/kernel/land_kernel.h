@@ -49,7 +49,9 @@ VX_HD_FN typename L::F land_height(const TerrainTables& t, const Row<L>& row, co
     inputs[kInputHeight] = zero;
     const Spot<L> here = row.spot(zero);
     F weights = zero, heights = zero;
+    const SettledAttributes settled = settled_attributes<L>(t.attributes, attribute);
     for (u32 b = 0; b < t.biomes; ++b) {
+        if (weightless(t.biome[b].wants, settled)) continue;
         const F weight = surface_weight<L>(t, b, attribute);
         const auto has = weight > zero;
         if (!L::any(has)) continue;

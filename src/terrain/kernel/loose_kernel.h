@@ -36,7 +36,9 @@ VX_HD_FN void lay_loose(const TerrainTables& t, const typename L::F* attribute, 
     for (u32 l = 0; l < t.loose; ++l)
         loose[l] = zero;
     F weights = zero;
+    const SettledAttributes settled = settled_attributes<L>(t.attributes, attribute);
     for (u32 b = 0; b < t.biomes; ++b) {
+        if (weightless(t.biome[b].wants, settled)) continue;
         const F weight = surface_weight<L>(t, b, attribute);
         if (!L::any(weight > zero)) continue; // adding 0 changes nothing
         weights = weights + weight;
