@@ -53,15 +53,30 @@ struct Column {
         for (i32 i = 0; i < kColumnCells; ++i)
             ground->top[i] = ground->land[i] = top;
     }
-    // Tops from 100 to 220, some below the sea, the ocean from 0 to 1.
+    // Slopes and steps at heights from 90 to 230, some below the sea, the ocean from 0 to 1.
     void rough(const TerrainTables& t, u64 seed) {
         Rng rng(seed);
+        const float base = 95 + rng.unit() * 80, slope = rng.unit() * 3 - 1.5f, across = rng.unit() * 3 - 1.5f;
+        const float cliff = rng.below(2) ? 40.0f : 0.0f;
+        const i32 edge = i32(rng.below(16));
         for (i32 i = 0; i < kColumnCells; ++i) {
-            ground->top[i] = 100 + rng.unit() * (rng.below(4) == 0 ? 120.0f : 50.0f);
+            const i32 x = i & 15, z = i >> 4;
+            ground->top[i] =
+                base + slope * float(x) + across * float(z) + (x + z / 2 > edge ? cliff : 0.0f) + rng.unit() * 3;
             ground->land[i] = ground->top[i] + rng.unit() * 4;
             for (u32 a = 0; a < t.attributes; ++a)
                 ground->attribute[a][i] = rng.below(3) == 0 ? rng.unit() : 0.0f;
         }
+    }
+    // As the caves see it: the least of the block column and those beside it, the slope going on beyond the tile.
+    double lowest(i32 x, i32 z) const {
+        const auto top = [&](i32 u, i32 v) { return double(ground->top[u | v << 4]); };
+        double least = top(x, z);
+        for (i32 d = -1; d <= 1; d += 2) {
+            least = std::min(least, x + d < 0 || x + d > 15 ? 2 * top(x, z) - top(x - d, z) : top(x + d, z));
+            least = std::min(least, z + d < 0 || z + d > 15 ? 2 * top(x, z) - top(x, z - d) : top(x, z + d));
+        }
+        return least;
     }
     void carve(const TerrainTables& t, Isa isa = best_isa()) {
         terrain_stages(isa).caves(t, at, *ground, lattices, *caves);
@@ -113,7 +128,8 @@ TEST(Caves, AgainstAPlainEvaluation) {
         for (i32 i = 0; i < kColumnCells; ++i) {
             const i32 x = i & 15, z = i >> 4;
             const double top = c.ground->top[i], ocean = c.ground->attribute[t.ocean][i];
-            const bool dry = top >= 132;
+            const double low = c.lowest(x, z);
+            const bool dry = low >= 132;
             const Row<ScalarLanes> row = thread_row(c.at, i);
             const auto ravine = ravine_span<ScalarLanes>(t, row, dry ? float(ocean) : 1.0f, float(top));
             const Noise n = t.ravine_depth;
@@ -137,7 +153,7 @@ TEST(Caves, AgainstAPlainEvaluation) {
                     close = std::fabs(theta - .07) < 1e-4 || std::fabs(f[0] - theta) < 1e-4;
                 }
                 want = want || (y >= std::floor(ravine.low) && y < std::floor(ravine.high));
-                want = want && y >= 1 && (dry ? y < top : y < top - 8);
+                want = want && y >= 1 && (dry ? y < top : y < low - 8);
                 const bool got = c.open(x, y, z);
                 open += got;
                 ++checked;
@@ -226,16 +242,22 @@ TEST(Caves, KeepARoofUnderWaterAndBedrockBelow) {
         c.rough(t, u64(k) + 100);
         c.carve(t);
         for (i32 i = 0; i < kColumnCells; ++i) {
+            const i32 x = i & 15, z = i >> 4;
             const float top = c.ground->top[i];
-            EXPECT_FALSE(c.open(i & 15, 0, i >> 4));
+            EXPECT_FALSE(c.open(x, 0, z));
             for (i32 y = 1; y < kTerrainHeight; ++y) {
-                if (!c.open(i & 15, y, i >> 4)) continue;
+                if (!c.open(x, y, z)) continue;
                 ++open;
                 ASSERT_LT(float(y), top);
-                if (top < float(kTerrainSeaLevel) + 4) {
-                    ASSERT_LT(float(y), top - 8) << "roof under water";
-                } else if (float(y + 1) >= top)
-                    ++breached;
+                if (top >= float(kTerrainSeaLevel) + 4 && float(y + 1) >= top) ++breached;
+                for (const i32 side : {0, -1, 1, -2, 2}) { // itself and the four beside it
+                    const i32 u = x + side % 2, v = z + side / 2;
+                    if (u < 0 || v < 0 || u > 15 || v > 15) continue;
+                    const float beside = c.ground->top[u | v << 4];
+                    if (beside < float(kTerrainSeaLevel) + 4) {
+                        ASSERT_LT(float(y), beside - 8) << "beside or under water";
+                    }
+                }
             }
         }
     }

@@ -53,6 +53,36 @@ VX_HD FloatLanes field_row(const float* near, const float* near_x, const float* 
 }
 #endif
 
+// The row's values one block along x (d = 1 or -1); a column's last lane has no neighbor and gives itself.
+VX_HD float beside(const float* values, const Row<ScalarLanes>& row, i32 d) {
+    const i32 x = i32(row.dx) + d;
+    return values[x >= 0 && x < 16 ? row.index + d : row.index];
+}
+#ifndef __CUDACC__
+template <int I>
+VX_HD FloatLanes beside(const float* values, const Row<WideLanes<I>>& row, i32 d) {
+    const FloatLanes v = WideLanes<I>::load(values + row.index);
+    return d < 0 ? __builtin_shufflevector(v, v, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14)
+                 : __builtin_shufflevector(v, v, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 15);
+}
+#endif
+
+// The least height of the ground at a block column and the four beside it. A stage sees no ground but its own column's,
+// so beyond a border the slope goes on: a cliff that begins right there is missed.
+template <class L>
+VX_HD_FN typename L::F lowest_around(const float* top, const Row<L>& row) {
+    using F = typename L::F;
+    const F own = L::load(top + row.index), west = beside(top, row, -1), east = beside(top, row, 1);
+    const i32 z = i32(row.dz);
+    const F north = L::load(top + (z > 0 ? row.index - 16 : row.index)),
+            south = L::load(top + (z < 15 ? row.index + 16 : row.index));
+    const F twice = own + own;
+    const F x = select(row.dx == L::f(0.0f), least(east, twice - east),
+                       select(row.dx == L::f(15.0f), least(west, twice - west), least(west, east)));
+    const F y = z == 0 ? least(south, twice - south) : z == 15 ? least(north, twice - north) : least(north, south);
+    return least(own, least(x, y));
+}
+
 // Bits 0 .. n - 1 of a word; all for n >= 32, none for n <= 0.
 template <class L>
 VX_HD typename L::U bits_below(typename L::I n) {
@@ -130,10 +160,12 @@ VX_HD_FN void cave_row(const TerrainTables& t, const GroundTile& ground, const L
     const i32 at = row.index;
     const F top = L::load(ground.top + at);
     const F ocean = t.ocean >= 0 ? L::load(ground.attribute[t.ocean] + at) : L::f(0.0f);
-    // Land near the sea or under it keeps a roof, and no ravine.
-    const auto dry = top >= L::f(float(kTerrainSeaLevel) + kDryHeight);
+    // Land near the sea's height, and what stands right beside such land, keeps a roof over all caves and has no
+    // ravine.
+    const F low_land = lowest_around<L>(ground.top, row);
+    const auto dry = low_land >= L::f(float(kTerrainSeaLevel) + kDryHeight);
     const F roof =
-        greatest(least(select(dry, top, top - float(kKeptFromWater)), L::f(float(kTerrainHeight))), L::f(0.0f));
+        greatest(least(select(dry, top, low_land - float(kKeptFromWater)), L::f(float(kTerrainHeight))), L::f(0.0f));
     const I limit = -floor_int<L>(-roof); // y < roof for y < limit
     const RavineSpan<L> ravine = ravine_span<L>(t, row, select(dry, ocean, L::f(1.0f)), top);
     const I ravine_low = floor_int<L>(ravine.low), ravine_high = floor_int<L>(ravine.high);
