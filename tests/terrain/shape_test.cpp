@@ -28,7 +28,7 @@ struct Plant {
 // The shapes that stand on their own, which draw their own ground line.
 constexpr Plant kPlants[] = {
     {Shape::acacia, 24, 90, 0.95f},
-    {Shape::redwood, 40, 600, 0.95f},
+    {Shape::redwood, 48, 600, 0.95f},
     {Shape::cypress, 60, 900, 0.95f},
     {Shape::birch, 16, 60, 0.95f},
     {Shape::pine, 24, 40, 0.9f},

@@ -29,16 +29,25 @@ VX_HD_FN void build_redwood(ShapeBuilder<L>& b) {
         b.cone(from, to, 0.8f, 1.0f, b.log(p::trunk, to - from));
     }
     const float low = height * b.range(0.28f, 0.42f);
-    const float spread = 3.4f + height * b.range(0.055f, 0.085f);
-    const u32 tiers = 6 + u32(height * 0.09f);
+    const float spread = 3.8f + height * b.range(0.06f, 0.095f);
+    const u32 tiers = 5 + u32(height * 0.085f);
     const float step = (height - 1.0f - low) / float(tiers - 1);
     for (u32 i = 0; i < tiers; ++i) {
         const float s = float(i) / float(tiers - 1);
         // Widest a quarter up the crown, pointed above.
         const float r = spread * least(1.0f, 0.7f + 1.6f * s) * (1.12f - s) * b.range(0.85f, 1.1f) + 0.6f;
-        const Vec3 aside = b.around(b.unit()) * (r * 0.16f);
-        const Vec3 at = Vec3{0.5f, low + step * float(i), 0.5f} + lean * (0.3f + 0.7f * s) + aside;
-        b.dome(at, {r, step * b.range(1.15f, 1.5f), r}, 0.0f, b.wobbly(b.sparse(p::leaves, 0.12f), 0.9f));
+        const float away = b.unit();
+        const Vec3 at =
+            Vec3{0.5f, low + step * float(i), 0.5f} + lean * (0.3f + 0.7f * s) + b.around(away) * (r * 0.1f);
+        const float high = step * b.range(0.85f, 1.3f);
+        b.dome(at, {r * 0.84f, high, r * 0.84f}, 0.0f, b.sparse(p::leaves, 0.1f));
+        // Boughs that reach further and hang lower; the slender top has none.
+        const u32 boughs = r > 2.4f ? 2 + (i & 1) : 0;
+        for (u32 k = 0; k < boughs; ++k) {
+            const Vec3 out = b.around(away + (float(k) + b.range(-0.2f, 0.2f)) / float(boughs)) * (r * 0.62f);
+            const float wide = r * b.range(0.38f, 0.52f);
+            b.dome(at + out - Vec3{0.0f, 0.7f, 0.0f}, {wide, high * 0.8f, wide}, 0.0f, b.sparse(p::leaves, 0.1f));
+        }
     }
     b.cone(top - Vec3{0.0f, 1.5f, 0.0f}, top + Vec3{0.0f, 2.6f, 0.0f}, 1.3f, 0.5f, b.paint(p::leaves));
 }

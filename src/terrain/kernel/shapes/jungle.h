@@ -45,11 +45,10 @@ VX_HD_FN void build_jungle_tree(ShapeBuilder<L>& b) {
     }
     for (u32 i = 0; i < branches; ++i) {
         const float r = b.range(3.8f, 5.6f);
-        b.ball(ends[i] + Vec3{0.0f, 0.6f, 0.0f}, {r, r * b.range(0.45f, 0.6f), r},
-               b.wobbly(b.sparse(p::leaves, 0.08f), 0.6f));
+        b.ball(ends[i] + Vec3{0.0f, 0.6f, 0.0f}, {r, r * b.range(0.45f, 0.6f), r}, b.sparse(p::leaves, 0.08f));
     }
     const float r = 4.0f + height * 0.075f;
-    b.ball(top + Vec3{0.0f, 0.5f, 0.0f}, {r, r * 0.55f, r}, b.wobbly(b.sparse(p::leaves, 0.08f), 0.6f));
+    b.ball(top + Vec3{0.0f, 0.5f, 0.0f}, {r, r * 0.55f, r}, b.sparse(p::leaves, 0.08f));
     for (u32 i = 0; i < 2; ++i) {
         const Vec3 aside = b.around(turn + 0.5f * float(i) + b.range(0.0f, 0.2f)) * (r * 0.55f);
         b.ball(top + aside + Vec3{0.0f, b.range(1.0f, 2.4f), 0.0f}, {r * 0.65f, r * 0.45f, r * 0.65f},

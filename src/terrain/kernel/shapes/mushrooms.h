@@ -8,8 +8,7 @@ namespace vitrail {
 
 // A cap over `at`: a shell, gills like a vault inside it, spots on top.
 template <class L>
-VX_HD_FN void build_mushroom_cap(ShapeBuilder<L>& b, Vec3 at, float radius, float high, float thick, u32 spots,
-                                 float wobble) {
+VX_HD_FN void build_mushroom_cap(ShapeBuilder<L>& b, Vec3 at, float radius, float high, float thick, u32 spots) {
     namespace p = parts::mushroom;
     const float turn = b.unit();
     for (u32 i = 0; i < spots; ++i) {
@@ -19,9 +18,7 @@ VX_HD_FN void build_mushroom_cap(ShapeBuilder<L>& b, Vec3 at, float radius, floa
         const float r = radius * b.range(0.06f, 0.13f) + 0.35f;
         b.ball(at + away * (radius * c) + Vec3{0.0f, high * s - 0.3f, 0.0f}, {r, r * 0.8f, r}, b.paint(p::gills));
     }
-    Brush skin = b.paint(p::cap);
-    if (wobble > 0.0f) skin = b.wobbly(skin, wobble);
-    b.dome(at, {radius, high, radius}, thick, skin);
+    b.dome(at, {radius, high, radius}, thick, b.paint(p::cap));
     const float in = thick - 0.4f;
     b.dome(at + Vec3{0.0f, 0.6f, 0.0f}, {radius - in, high - in, radius - in}, 1.4f, b.paint(p::gills));
 }
@@ -49,7 +46,7 @@ VX_HD_FN void build_mushroom(ShapeBuilder<L>& b) {
         const Vec3 at = b.curve(foot, low, high, end, b.range(0.6f, 0.8f));
         b.dome(at, {thick + 2.6f, 2.6f, thick + 2.6f}, 1.2f, b.paint(p::gills));
     }
-    build_mushroom_cap(b, top, radius, rise, shell, 8, 0.5f);
+    build_mushroom_cap(b, top, radius, rise, shell, 8);
 }
 
 template <class L>
@@ -66,7 +63,7 @@ VX_HD_FN void build_medium_mushroom(ShapeBuilder<L>& b) {
     const float thick = 0.72f + radius * 0.06f;
     b.spline(foot, Vec3{0.5f, tall * 0.5f, 0.5f} + bend, top + Vec3{0.0f, rise - 1.2f, 0.0f}, thick * 1.4f,
              thick * 0.9f, 3, b.paint(p::stem));
-    build_mushroom_cap(b, top, radius, rise, 1.5f, 4, 0.0f);
+    build_mushroom_cap(b, top, radius, rise, 1.5f, 4);
 }
 
 } // namespace vitrail
