@@ -1,6 +1,8 @@
 // Weights of biomes: they sum to 1, draws follow them, and lanes agree with threads.
+#include "base_terrain.h"
 #include "ground_tables.h"
 
+#include "terrain/compile/compile.h"
 #include "terrain/kernel/biome_kernel.h"
 
 #include <cmath>
@@ -46,6 +48,50 @@ TEST(BiomeWeight, SumToOneWhereRowsTellEachOtherApart) {
         ASSERT_NEAR(sum, 1.0, 1e-6);
         ASSERT_NEAR(surface_weight_sum<ScalarLanes>(*t, a), 1.0f, 1e-6f);
     }
+}
+
+TEST(BiomeWeight, SumToOneInTheBaseContent) {
+    const auto compiled = compile_terrain(base_terrain(), 1);
+    ASSERT_TRUE(compiled) << compiled.error().message;
+    const TerrainTables& t = *compiled->tables;
+    RandomAttributes attributes;
+    for (int i = 0; i < 100000; ++i) {
+        float a[kAttributesMost];
+        attributes.next(a, kAttributesMost);
+        ASSERT_NEAR(surface_weight_sum<ScalarLanes>(t, a), 1.0f, 1e-6f);
+        ASSERT_NEAR(cave_weight_sum<ScalarLanes>(t, a), 1.0f, 1e-6f);
+    }
+}
+
+// Skipping must leave out exactly those of weight 0, whatever the wants and attributes.
+TEST(BiomeWeight, WeightlessMeansAFactorOfZero) {
+    std::mt19937 random(3);
+    RandomAttributes attributes;
+    int some = 0, none = 0;
+    for (int i = 0; i < 100000; ++i) {
+        i8 wants[kAttributesMost];
+        for (i8& w : wants)
+            w = i8(int(random() % 3) - 1);
+        float a[kAttributesMost];
+        attributes.next(a, kAttributesMost);
+        const u32 count = 1 + random() % kAttributesMost;
+        for (u32 k = count; k < kAttributesMost; ++k)
+            wants[k] = 0;
+        const bool skipped = weightless(wants, settled_attributes<ScalarLanes>(count, a));
+        ASSERT_EQ(skipped, wants_weight<ScalarLanes>(wants, count, a) == 0.0f);
+        ++(skipped ? none : some);
+    }
+    EXPECT_GT(some, 1000);
+    EXPECT_GT(none, 1000);
+    // All lanes must agree: 15 zeros and a half are not settled.
+    FloatLanes lanes = {};
+    EXPECT_EQ(settled_attributes<Wide>(1, &lanes).none, 1u);
+    lanes[11] = .5f;
+    EXPECT_EQ(settled_attributes<Wide>(1, &lanes).none, 0u);
+    lanes = Wide::f(1.0f);
+    EXPECT_EQ(settled_attributes<Wide>(1, &lanes).full, 0x80u);
+    lanes[15] = .5f;
+    EXPECT_EQ(settled_attributes<Wide>(1, &lanes).full, 0u);
 }
 
 TEST(BiomeWeight, AnyIsNoFactor) {

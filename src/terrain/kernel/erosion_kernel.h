@@ -4,6 +4,9 @@
 // on the blocks within passes * layers (+ 1 for the slope) of it and on nothing else, and can be made in any rectangle,
 // order or number of threads.
 //
+// What a fixed number leaves: with 11 passes and the base content, 0.06 % of a layer's block columns stay above repose
+// (400 zones; tests hold it below 0.1 %), most of them by less than a quarter of a block.
+//
 // A pass that changes nothing is the identity for ever after, and so is any pass where a layer is absent: both may be
 // skipped.
 #pragma once
