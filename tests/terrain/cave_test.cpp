@@ -301,6 +301,47 @@ TEST(Caves, ShareOfOpenBlocksByDepth) {
     }
 }
 
+// Depth of the ravine at a block column, blocks.
+float ravine_depth(const TerrainTables& t, ColumnPos at, i32 x, i32 z) {
+    const auto r = ravine_span<ScalarLanes>(t, thread_row(at, x | z << 4), 0.0f, 400.0f);
+    return std::max(0.0f, r.high - r.low);
+}
+
+// Ravines take a few places of a hundred near the origin and at the world's edge, and their walls do not step at
+// borders more than within columns: what wraps or is anchored by column does not show.
+TEST(Caves, RavinesGoOnOverBorders) {
+    const TerrainTables& t = tables();
+    for (const i32 far : {0, 134217600, -134217600}) {
+        Rng rng(9);
+        double steps[2] = {}, depth = 0;
+        i32 counts[2] = {}, deep = 0, count = 0;
+        for (i32 k = 0; k < 1500; ++k) {
+            const ColumnPos at{far + i32(rng.below(4000)) - 2000 * (far == 0), far / 2 + i32(rng.below(4000))};
+            if (ravine_depth(t, at, 8, 8) == 0 && ravine_depth(t, at, 15, 15) == 0 && rng.below(8) != 0) continue;
+            for (i32 z = 0; z < 16; ++z)
+                for (i32 x = 0; x < 16; ++x) {
+                    const float own = ravine_depth(t, at, x, z);
+                    const ColumnPos east{at.x + (x == 15), at.z}, south{at.x, at.z + (z == 15)};
+                    steps[x == 15] += std::fabs(double(own - ravine_depth(t, east, (x + 1) & 15, z)));
+                    ++counts[x == 15];
+                    steps[z == 15] += std::fabs(double(own - ravine_depth(t, south, x, (z + 1) & 15)));
+                    ++counts[z == 15];
+                    depth = std::max(depth, double(own));
+                }
+        }
+        for (i32 k = 0; k < 20000; ++k) {
+            deep += ravine_depth(t, {far + i32(rng.below(9000)), i32(rng.below(9000))}, i32(rng.below(16)),
+                                 i32(rng.below(16))) > 8;
+            ++count;
+        }
+        EXPECT_NEAR((steps[1] / counts[1]) / (steps[0] / counts[0]), 1.0, 0.2) << far;
+        EXPECT_GT(depth, 50) << far;
+        EXPECT_LT(depth, 90) << far;
+        EXPECT_GT(double(deep) / count, 0.004) << far;
+        EXPECT_LT(double(deep) / count, 0.03) << far;
+    }
+}
+
 TEST(Caves, EveryCaveBiomeOccurs) {
     const TerrainTables& t = tables();
     std::vector<u64> floors(t.cave_biomes), ceilings(t.cave_biomes);
