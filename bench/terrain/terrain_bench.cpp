@@ -1,0 +1,11 @@
+// Benchmarks of terrain.
+#include "bench/harness.h"
+
+namespace vitrail {
+void register_stage_benches(bench::Suite& suite);
+}
+
+void register_terrain_benches(vitrail::bench::Suite& suite);
+void register_terrain_benches(vitrail::bench::Suite& suite) {
+    vitrail::register_stage_benches(suite);
+}
