@@ -27,10 +27,10 @@ bool column_in_world(ColumnPos at) {
     return in_world(ChunkPos{at.x, 0, at.z});
 }
 
-constexpr float kMovedBlocks = 2;         // further than this from where it joined a player moves: the budget holds
-constexpr float kSpeedShare = 0.2f;       // of a tick's speed in the mean
-constexpr float kTeleportBlocks = 16;     // a tick; no speed at all
-constexpr int kSectors = 16;              // directions are rounded, so that turning a little sorts nothing anew
+constexpr float kMovedBlocks = 2;     // further than this from where it joined a player moves: the budget holds
+constexpr float kSpeedShare = 0.2f;   // of a tick's speed in the mean
+constexpr float kTeleportBlocks = 16; // a tick; no speed at all
+constexpr int kSectors = 16;          // directions are rounded, so that turning a little sorts nothing anew
 
 float rounded(float v, float step) {
     return std::round(v / step) * step;
@@ -43,7 +43,9 @@ void follow(Session& session) {
     const Vec3 moved = view_from(session.followed_at, at).v, away = view_from(session.joined_at, at).v;
     session.followed_at = at;
     if (length(away) > kMovedBlocks) session.travels = true;
-    session.speed = length(moved) > kTeleportBlocks ? Vec3{} : session.speed + (moved * float(kTicksASecond) - session.speed) * kSpeedShare;
+    session.speed = length(moved) > kTeleportBlocks
+                        ? Vec3{}
+                        : session.speed + (moved * float(kTicksASecond) - session.speed) * kSpeedShare;
 }
 
 GenerationViewer viewer_of(const Session& session) {
@@ -113,7 +115,8 @@ void publish(ServerDimension& dimension, FinishedColumn finished) {
     Column& column = dimension.columns[finished.at];
     ++dimension.opened;
     if (!finished.column) {
-        log_error(fmt::format("column {} {} does not load: {}", finished.at.x, finished.at.z, finished.column.error().message));
+        log_error(fmt::format("column {} {} does not load: {}", finished.at.x, finished.at.z,
+                              finished.column.error().message));
         // Left as never made, so that nothing is generated over what may still be read one day.
         column = {false, true};
         return;

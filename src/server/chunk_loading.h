@@ -5,8 +5,8 @@
 
 namespace vitrail::server {
 
-// Columns beyond the view distance that are loaded: sections at the edge need their neighbors for surfaces and light, and
-// what comes into view shall be there already.
+// Columns beyond the view distance that are loaded: sections at the edge need their neighbors for surfaces and light,
+// and what comes into view shall be there already.
 inline constexpr float kLoadMargin = 2.5f;
 // Columns beyond the view distance that stay loaded, so that walking to and fro loads nothing.
 inline constexpr float kKeepMargin = 4.5f;

@@ -35,18 +35,22 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, const Con
     VX_TRY_ASSIGN(world->records, WorldRecords::open(options.folder, registry, open));
     VX_TRY_ASSIGN(auto level, world->records->load_level());
     if (level && level->unfinished)
-        return fail(ErrorCode::denied, fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again",
-                                                   options.folder, level->source));
-    if (!level && options.read_only) return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
+        return fail(ErrorCode::denied,
+                    fmt::format("world {} is an unfinished import of {}: if it no longer runs, import it again",
+                                options.folder, level->source));
+    if (!level && options.read_only)
+        return fail(ErrorCode::not_found, fmt::format("{} holds no level yet", options.folder));
     // Before anything is written: a world whose land cannot be gone on with stays as it is.
     const u64 seed = level ? level->seed : seed_of_new_world(options);
-    auto generator = open_generator(level ? level->generator : options.generator, level ? level->generator_version : kGeneratorVersion,
-                                    content.terrain.get(), seed);
-    if (!generator) return fail(generator.error().code, fmt::format("world {}: {}", options.folder, generator.error().message));
+    auto generator = open_generator(level ? level->generator : options.generator,
+                                    level ? level->generator_version : kGeneratorVersion, content.terrain.get(), seed);
+    if (!generator)
+        return fail(generator.error().code, fmt::format("world {}: {}", options.folder, generator.error().message));
     if (level) {
         world->level = std::move(*level);
     } else {
-        VX_TRY_ASSIGN(world->level, make_new_level(*world->records, options.name, seed, generator->get(), world->content_hash));
+        VX_TRY_ASSIGN(world->level,
+                      make_new_level(*world->records, options.name, seed, generator->get(), world->content_hash));
     }
     if (world->level.content_hash != world->content_hash) {
         world->level.content_hash = world->content_hash;

@@ -116,7 +116,8 @@ Result<> Server::stop() {
     if (thread_.joinable()) thread_.join();
     if (!world_ || stopped_) return {};
     stopped_ = true;
-    for (auto& [id, dimension] : world_->dimensions) dimension.scheduler->stop();
+    for (auto& [id, dimension] : world_->dimensions)
+        dimension.scheduler->stop();
     world_->pool->wait_idle();
     for (auto& session : world_->sessions)
         if (!session->gone) send(*session, net::Channel::control, net::Goodbye{"the server stops"});

@@ -38,16 +38,16 @@ struct StartPlace {
 };
 
 struct ServerOptions {
-    std::string folder;              // the world's directory
-    bool create = true;              // make a world where there is none
-    std::optional<u64> seed;         // of a new world; none: random
+    std::string folder;                // the world's directory
+    bool create = true;                // make a world where there is none
+    std::optional<u64> seed;           // of a new world; none: random
     std::string generator = "endless"; // of a new world; "" makes an empty one
     std::string name = "World";        // of a new world
-    bool read_only = false;          // takes no lock on the folder and keeps nothing; the world must exist
+    bool read_only = false;            // takes no lock on the folder and keeps nothing; the world must exist
     std::optional<StartPlace> start;
-    unsigned threads = 1;                // workers that load and generate; 0: inside the tick
-    // Time that each worker may take for that in a second, microseconds, once somebody has moved; 0: as much as there is.
-    // Half a core holds frame and tick on 2 cores and makes land several times faster than anybody flies.
+    unsigned threads = 1; // workers that load and generate; 0: inside the tick
+    // Time that each worker may take for that in a second, microseconds, once somebody has moved; 0: as much as there
+    // is. Half a core holds frame and tick on 2 cores and makes land several times faster than anybody flies.
     u32 generation_us_a_second = 500'000;
     u32 view_distance_most = 24;         // chunks
     u32 save_group_ms = 100;             // how long a commit waits for company
@@ -70,8 +70,8 @@ struct ServerWorld;
 
 class Server {
 public:
-    // Errors: the store's (not_found, busy, damaged, unsupported, io); unsupported, where the world's generator is not known
-    // here (the world is left as it is); those of the terrain's description.
+    // Errors: the store's (not_found, busy, damaged, unsupported, io); unsupported, where the world's generator is not
+    // known here (the world is left as it is); those of the terrain's description.
     static Result<std::unique_ptr<Server>> open(ServerOptions options, const Content& content);
     ~Server();
 

@@ -51,8 +51,8 @@ struct Session {
     u32 unkept_sequence = 0; // accepted, not submitted to the store yet; 0 none
 
     // What it sees.
-    u32 view_distance = 8;         // chunks
-    bool columns_complete = false; // nothing it may see is missing
+    u32 view_distance = 8;                  // chunks
+    bool columns_complete = false;          // nothing it may see is missing
     bool followed = false, travels = false; // its way is known; it has left the place where it joined
     WorldPos joined_at{}, followed_at{};
     Vec3 speed{}; // mean of the last ticks, blocks a second
