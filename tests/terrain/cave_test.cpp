@@ -290,8 +290,8 @@ TEST(Caves, ShareOfOpenBlocksByDepth) {
     for (const i32 far : {0, 134217690}) {
         const Shares s = shares(tables(), 500, 17, far);
         for (i32 i = 1; i < 7; ++i) {
-            EXPECT_GT(s.by_depth[i], 0.06) << "y " << i * 16 << " far " << far;
-            EXPECT_LT(s.by_depth[i], 0.19) << "y " << i * 16 << " far " << far;
+            EXPECT_GT(s.by_depth[i], 0.03) << "y " << i * 16 << " far " << far;
+            EXPECT_LT(s.by_depth[i], 0.14) << "y " << i * 16 << " far " << far;
         }
         EXPECT_LT(s.by_depth[0], 0.06);
         EXPECT_LT(s.by_depth[8], 0.06);

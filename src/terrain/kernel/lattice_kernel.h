@@ -13,7 +13,7 @@ namespace vitrail {
 // of a fifth.
 inline constexpr float kCaveStretch = 1.6f; // cells are flatter than wide
 inline constexpr float kCaveWarp = 1.2f;    // cells
-inline constexpr float kCaveWidth = 0.17f, kCaveWidthChange = 0.085f, kCaveHallWidth = 1.4f;
+inline constexpr float kCaveWidth = 0.15f, kCaveWidthChange = 0.08f, kCaveHallWidth = 1.4f;
 inline constexpr float kClosenessMost = 16.0f;                       // a cap, where a place is a cell's very point
 inline constexpr i32 kCaveTop = (kLatticeLevels - 1) * kLatticeStep; // caves lie below
 
