@@ -57,7 +57,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                               {{p::iceberg::radius_least, {"radius_least", 20, 6, 32}},
                                {p::iceberg::radius_most, {"radius_most", 32, 6, 32}}},
                               {{p::iceberg::ice, "ice"}, {p::iceberg::core, "core"}, {p::iceberg::snow, "snow"}}));
-    add(Shape::acacia, shape("acacia", -1, 15, 12,
+    add(Shape::acacia, shape("acacia", -1, 15, 14,
                              {{p::acacia::height_least, {"height_least", 8, 6, 12}},
                               {p::acacia::height_most, {"height_most", 12, 6, 12}}},
                              {VITRAIL_WOOD(acacia)}));
@@ -153,8 +153,8 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                {p::stormlight::hanging, {"hanging", 0, 0, 1}}},
               {{p::stormlight::core, "core"}, {p::stormlight::shell, "shell"}, {p::stormlight::cord, "cord"}}));
     add(Shape::crystal_pillar, shape("crystal_pillar", -6, 90, 20,
-                                     {{p::crystal_pillar::radius_least, {"radius_least", 1.5f, 1, 5}},
-                                      {p::crystal_pillar::radius_most, {"radius_most", 3.5f, 1, 5}}},
+                                     {{p::crystal_pillar::radius_least, {"radius_least", 1.8f, 1, 5}},
+                                      {p::crystal_pillar::radius_most, {"radius_most", 4.2f, 1, 5}}},
                                      {{p::crystal_pillar::first, "first"},
                                       {p::crystal_pillar::second, "second"},
                                       {p::crystal_pillar::third, "third"}}));
@@ -169,10 +169,10 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                {p::cave_vine::glowing_share, {"glowing_share", 0.2f, 0, 1}}},
               {{p::cave_vine::vine, "vine"}, {p::cave_vine::glowing, "glowing"}, {p::cave_vine::tip, "tip"}}));
     add(Shape::fungus, shape("fungus", -4, 24, 12,
-                             {{p::fungus::height_least, {"height_least", 4, 2, 16}},
-                              {p::fungus::height_most, {"height_most", 10, 2, 16}},
-                              {p::fungus::cap_radius_least, {"cap_radius_least", 2, 1, 6}},
-                              {p::fungus::cap_radius_most, {"cap_radius_most", 4, 1, 6}}},
+                             {{p::fungus::height_least, {"height_least", 5, 2, 16}},
+                              {p::fungus::height_most, {"height_most", 13, 2, 16}},
+                              {p::fungus::cap_radius_least, {"cap_radius_least", 2.4f, 1, 6}},
+                              {p::fungus::cap_radius_most, {"cap_radius_most", 4.8f, 1, 6}}},
                              {{p::fungus::stem, "stem"}, {p::fungus::cap, "cap"}, {p::fungus::light, "light"}}));
     return all;
 }

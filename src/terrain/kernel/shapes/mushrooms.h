@@ -26,8 +26,12 @@ VX_HD_FN void build_mushroom_cap(ShapeBuilder<L>& b, Vec3 at, float radius, floa
 template <class L>
 VX_HD_FN void build_mushroom(ShapeBuilder<L>& b) {
     namespace p = parts::mushroom;
-    const float tall = b.range(b.number(p::height_least), b.number(p::height_most));
-    const float radius = b.range(b.number(p::cap_radius_least), b.number(p::cap_radius_most));
+    // The tall ones have the wide caps, so that a grove has storeys.
+    const float age = b.unit();
+    const float tall = b.number(p::height_least) + (b.number(p::height_most) - b.number(p::height_least)) * age;
+    const float wide = 0.35f * b.unit() + 0.65f * age;
+    const float radius =
+        b.number(p::cap_radius_least) + (b.number(p::cap_radius_most) - b.number(p::cap_radius_least)) * wide;
     const float turn = b.unit();
     const float bend = b.range(2.0f, 5.0f) + tall * 0.06f;
     const Vec3 foot{0.5f, -4.0f, 0.5f};

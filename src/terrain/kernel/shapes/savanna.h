@@ -22,7 +22,7 @@ VX_HD_FN void build_acacia(ShapeBuilder<L>& b) {
     Vec3 ends[4];
     for (u32 i = 0; i < limbs; ++i) {
         const float away = turn + float(i) / float(limbs) + b.range(-0.08f, 0.08f);
-        const float out = b.range(2.2f, 4.6f);
+        const float out = b.range(2.6f, 5.4f);
         const float rise = height * (i == 0 ? 1.0f : b.range(0.72f, 0.97f));
         Vec3 end = fork + b.around(away) * out;
         end.y = rise;
@@ -33,7 +33,7 @@ VX_HD_FN void build_acacia(ShapeBuilder<L>& b) {
         ends[i] = end;
     }
     for (u32 i = 0; i < limbs; ++i) {
-        const float radius = (i == 0 ? 1.0f : 0.85f) * b.range(3.4f, 4.8f);
+        const float radius = (i == 0 ? 1.0f : 0.85f) * b.range(3.8f, 5.6f);
         const float narrow = b.range(0.8f, 1.0f); // no umbrella is round
         const bool along = b.chance(0.5f);
         const Vec3 wide{along ? radius : radius * narrow, 1.25f, along ? radius * narrow : radius};
