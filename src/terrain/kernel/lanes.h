@@ -163,6 +163,77 @@ VX_HD FloatLanes square_root(FloatLanes v) {
     return r;
 #endif
 }
+
+// Two rows of 16 at once, for what is nothing but arithmetic: a chain of operations as long as noise leaves half of a
+// CPU idle when it waits alone. Lanes 16.. are the second row.
+using FloatPair = float __attribute__((vector_size(128)));
+using IntPair = i32 __attribute__((vector_size(128)));
+using UintPair = u32 __attribute__((vector_size(128)));
+
+template <int Isa>
+struct PairLanes {
+    static constexpr i32 kWidth = 32;
+    using F = FloatPair;
+    using I = IntPair;
+    using U = UintPair;
+    using M = IntPair; // 0 or -1
+    static VX_HD F f(float v) { return F{} + v; }
+    static VX_HD F f(F v) { return v; }
+    static VX_HD I i(i32 v) { return I{} + v; }
+    static VX_HD U u(u32 v) { return U{} + v; }
+    static VX_HD F load(const float* p) {
+        F v;
+        __builtin_memcpy(&v, p, sizeof v);
+        return v;
+    }
+    static VX_HD void store(float* p, F v) { __builtin_memcpy(p, &v, sizeof v); }
+    static VX_HD void store(u32* p, U v) { __builtin_memcpy(p, &v, sizeof v); }
+    static VX_HD bool any(M m) {
+        IntLanes half[2];
+        __builtin_memcpy(half, &m, sizeof m);
+        return WideLanes<Isa>::any(half[0] | half[1]);
+    }
+    static VX_HD bool all(M m) { return !any(~m); }
+};
+
+VX_HD FloatPair select(IntPair m, FloatPair a, FloatPair b) {
+    return m ? a : b;
+}
+VX_HD IntPair select(IntPair m, IntPair a, IntPair b) {
+    return m ? a : b;
+}
+VX_HD UintPair select(IntPair m, UintPair a, UintPair b) {
+    return m ? a : b;
+}
+VX_HD IntPair to_int(FloatPair v) {
+    return __builtin_convertvector(v, IntPair);
+}
+VX_HD FloatPair to_float(IntPair v) {
+    return __builtin_convertvector(v, FloatPair);
+}
+VX_HD FloatPair to_float(UintPair v) {
+    return __builtin_convertvector((IntPair)v, FloatPair);
+}
+VX_HD UintPair as_uint(IntPair v) {
+    return (UintPair)v;
+}
+VX_HD IntPair as_int(UintPair v) {
+    return (IntPair)v;
+}
+VX_HD UintPair float_bits(FloatPair v) {
+    return (UintPair)v;
+}
+VX_HD FloatPair float_of_bits(UintPair bits) {
+    return (FloatPair)bits;
+}
+VX_HD FloatPair square_root(FloatPair v) {
+    FloatLanes half[2];
+    __builtin_memcpy(half, &v, sizeof v);
+    for (FloatLanes& h : half)
+        h = square_root(h);
+    __builtin_memcpy(&v, half, sizeof v);
+    return v;
+}
 #endif
 
 // For every lane type; NaN in `a` gives b, as the comparison says.

@@ -94,19 +94,59 @@ VX_HD typename L::F corner3(typename L::U h, typename L::F x, typename L::F y, t
 
 } // namespace noise_detail
 
-// -1..1
+// An octave as seen from one anchor: what all its block columns share. Who reads many rows makes it once for them.
+struct AnchoredOctave {
+    float own = 0, other = 0;  // factors of a coordinate and of its skew
+    float u = 0, v = 0, w = 0; // of the anchor within its lattice cell, less one half
+    u32 prime_x = 1, prime_y = 1, prime_z = 1, key = 0;
+    float scale = 1; // of the sum of corners
+};
+
+VX_HD AnchoredOctave anchored2(const NoiseOctave& o, i32 x, i32 z) {
+    using namespace noise_detail;
+    const u64 bx = u64(i64(x)), bz = u64(i64(z));
+    const u64 u = o.shift_x + bx * o.fixed_a + bz * o.fixed_b, v = o.shift_z + bz * o.fixed_a + bx * o.fixed_b;
+    AnchoredOctave out;
+    out.own = o.a;
+    out.other = o.b;
+    out.u = fraction_of(u) - 0.5f;
+    out.v = fraction_of(v) - 0.5f;
+    out.prime_x = o.prime_x;
+    out.prime_z = o.prime_z;
+    out.key = (u32(u >> 32) - kRounderBits) * o.prime_x + (u32(v >> 32) - kRounderBits) * o.prime_z + o.key;
+    out.scale = kSimplex2Scale * o.amplitude;
+    return out;
+}
+
+VX_HD AnchoredOctave anchored3(const NoiseOctave& o, i32 x, i32 z) {
+    using namespace noise_detail;
+    const u64 bx = u64(i64(x)), bz = u64(i64(z));
+    const u64 u = o.shift_x + bx * o.fixed_a + bz * o.fixed_b, v = o.shift_y + (bx + bz) * o.fixed_b,
+              w = o.shift_z + bz * o.fixed_a + bx * o.fixed_b;
+    AnchoredOctave out;
+    out.own = o.a - o.b;
+    out.other = o.b;
+    out.u = fraction_of(u) - 0.5f;
+    out.v = fraction_of(v) - 0.5f;
+    out.w = fraction_of(w) - 0.5f;
+    out.prime_x = o.prime_x;
+    out.prime_y = o.prime_y;
+    out.prime_z = o.prime_z;
+    out.key = (u32(u >> 32) - kRounderBits) * o.prime_x + (u32(v >> 32) - kRounderBits) * o.prime_y +
+              (u32(w >> 32) - kRounderBits) * o.prime_z + o.key;
+    out.scale = kSimplex3Scale * o.amplitude;
+    return out;
+}
+
+// -1..1 times the octave's amplitude, at blocks dx, dz from the anchor.
 template <class L>
-VX_HD typename L::F simplex2(const NoiseOctave& o, const Spot<L>& p) {
+VX_HD typename L::F simplex2(const AnchoredOctave& o, typename L::F dx, typename L::F dz) {
     using namespace noise_detail;
     using F = typename L::F;
     using U = typename L::U;
-    const u64 bx = u64(i64(p.x)), bz = u64(i64(p.z));
-    const u64 base_u = o.shift_x + bx * o.fixed_a + bz * o.fixed_b,
-              base_v = o.shift_z + bz * o.fixed_a + bx * o.fixed_b;
     // Lattice coordinates less one half: rounding these to the nearest is rounding down. On a cell's border either cell
     // will do.
-    const F u = p.dx * o.a + p.dz * o.b + (fraction_of(base_u) - 0.5f),
-            v = p.dz * o.a + p.dx * o.b + (fraction_of(base_v) - 0.5f);
+    const F u = dx * o.own + dz * o.other + o.u, v = dz * o.own + dx * o.other + o.v;
     const F ru = u + kRounder, rv = v + kRounder;
     const F fu = u - (ru - kRounder), fv = v - (rv - kRounder); // -0.5..0.5
     const F t = (fu + fv) * kSimplex2Unskew - (0.5f - kSimplex2Unskew);
@@ -114,29 +154,23 @@ VX_HD typename L::F simplex2(const NoiseOctave& o, const Spot<L>& p) {
     const auto x_first = x0 > y0;
     constexpr float g = kSimplex2Unskew;
     const F stay = L::f(g), step = L::f(g - 1.0f);
-    const u32 whole_u = u32(base_u >> 32) - kRounderBits, whole_v = u32(base_v >> 32) - kRounderBits;
-    const U h0 =
-        float_bits(ru) * o.prime_x + float_bits(rv) * o.prime_z + (whole_u * o.prime_x + whole_v * o.prime_z + o.key);
+    const U h0 = float_bits(ru) * o.prime_x + float_bits(rv) * o.prime_z + o.key;
     const U h1 = h0 + select(x_first, L::u(o.prime_x), L::u(o.prime_z)), h2 = h0 + (o.prime_x + o.prime_z);
     const F n = corner2<L>(h0, x0, y0) +
                 corner2<L>(h1, x0 + select(x_first, step, stay), y0 + select(x_first, stay, step)) +
                 corner2<L>(h2, x0 + (2.0f * g - 1.0f), y0 + (2.0f * g - 1.0f));
-    return n * kSimplex2Scale;
+    return n * o.scale;
 }
 
-// -1..1
+// Likewise; `sum`: of dx, dz and dy, in this order.
 template <class L>
-VX_HD typename L::F simplex3(const NoiseOctave& o, const Spot<L>& p) {
+VX_HD typename L::F simplex3(const AnchoredOctave& o, typename L::F dx, typename L::F dy, typename L::F dz,
+                             typename L::F sum) {
     using namespace noise_detail;
     using F = typename L::F;
     using U = typename L::U;
-    const u64 bx = u64(i64(p.x)), bz = u64(i64(p.z));
-    const u64 base_u = o.shift_x + bx * o.fixed_a + bz * o.fixed_b, base_v = o.shift_y + (bx + bz) * o.fixed_b,
-              base_w = o.shift_z + bz * o.fixed_a + bx * o.fixed_b;
-    const F skew = (p.dx + p.dz + p.dy) * o.b;
-    const float own = o.a - o.b;
-    const F u = p.dx * own + skew + (fraction_of(base_u) - 0.5f), v = p.dy * own + skew + (fraction_of(base_v) - 0.5f),
-            w = p.dz * own + skew + (fraction_of(base_w) - 0.5f); // as simplex2
+    const F skew = sum * o.other;
+    const F u = dx * o.own + skew + o.u, v = dy * o.own + skew + o.v, w = dz * o.own + skew + o.w; // as simplex2
     const F ru = u + kRounder, rv = v + kRounder, rw = w + kRounder;
     const F fu = u - (ru - kRounder), fv = v - (rv - kRounder), fw = w - (rw - kRounder);
     const F t = (fu + fv + fw) * kSimplex3Unskew - (0.5f - 1.5f * kSimplex3Unskew);
@@ -152,30 +186,54 @@ VX_HD typename L::F simplex3(const NoiseOctave& o, const Spot<L>& p) {
             z2 = z0 + select(z_least, stay2, step2);
     constexpr float last = 3.0f * g - 1.0f;
     const u32 px = o.prime_x, py = o.prime_y, pz = o.prime_z, all = px + py + pz;
-    const u32 whole_u = u32(base_u >> 32) - kRounderBits, whole_v = u32(base_v >> 32) - kRounderBits,
-              whole_w = u32(base_w >> 32) - kRounderBits;
-    const U h0 = float_bits(ru) * px + float_bits(rv) * py + float_bits(rw) * pz +
-                 (whole_u * px + whole_v * py + whole_w * pz + o.key);
+    const U h0 = float_bits(ru) * px + float_bits(rv) * py + float_bits(rw) * pz + o.key;
     const U h1 = h0 + select(x_most, L::u(px), select(z_less, L::u(py), L::u(pz)));
     const U h2 = h0 + select(z_least, L::u(all - pz), select(x_more, L::u(all - py), L::u(all - px)));
     const F n = corner3<L>(h0, x0, y0, z0) + corner3<L>(h1, x1, y1, z1) + corner3<L>(h2, x2, y2, z2) +
                 corner3<L>(h0 + all, x0 + last, y0 + last, z0 + last);
-    return n * kSimplex3Scale;
+    return n * o.scale;
 }
 
-// Octaves one after another, each times its amplitude.
+template <class L>
+VX_HD typename L::F simplex2(const NoiseOctave& o, const Spot<L>& p) {
+    return simplex2<L>(anchored2(o, p.x, p.z), p.dx, p.dz);
+}
+template <class L>
+VX_HD typename L::F simplex3(const NoiseOctave& o, const Spot<L>& p) {
+    return simplex3<L>(anchored3(o, p.x, p.z), p.dx, p.dy, p.dz, p.dx + p.dz + p.dy);
+}
+
+// Octaves one after another.
 template <class L>
 VX_HD_FN typename L::F fractal2(const NoiseOctave* octaves, i32 count, const Spot<L>& p) {
-    typename L::F sum = simplex2<L>(octaves[0], p) * octaves[0].amplitude;
+    typename L::F sum = simplex2<L>(octaves[0], p);
     for (i32 i = 1; i < count; ++i)
-        sum = sum + simplex2<L>(octaves[i], p) * octaves[i].amplitude;
+        sum = sum + simplex2<L>(octaves[i], p);
     return sum;
 }
 template <class L>
 VX_HD_FN typename L::F fractal3(const NoiseOctave* octaves, i32 count, const Spot<L>& p) {
-    typename L::F sum = simplex3<L>(octaves[0], p) * octaves[0].amplitude;
+    typename L::F sum = simplex3<L>(octaves[0], p);
     for (i32 i = 1; i < count; ++i)
-        sum = sum + simplex3<L>(octaves[i], p) * octaves[i].amplitude;
+        sum = sum + simplex3<L>(octaves[i], p);
+    return sum;
+}
+
+// The same for many rows of one anchor: octaves anchored once.
+template <class L>
+VX_HD_FN typename L::F fractal2(const AnchoredOctave* octaves, i32 count, typename L::F dx, typename L::F dz) {
+    typename L::F sum = simplex2<L>(octaves[0], dx, dz);
+    for (i32 i = 1; i < count; ++i)
+        sum = sum + simplex2<L>(octaves[i], dx, dz);
+    return sum;
+}
+template <class L>
+VX_HD_FN typename L::F fractal3(const AnchoredOctave* octaves, i32 count, typename L::F dx, typename L::F dy,
+                                typename L::F dz) {
+    const typename L::F all = dx + dz + dy;
+    typename L::F sum = simplex3<L>(octaves[0], dx, dy, dz, all);
+    for (i32 i = 1; i < count; ++i)
+        sum = sum + simplex3<L>(octaves[i], dx, dy, dz, all);
     return sum;
 }
 

@@ -5,33 +5,16 @@
 
 namespace vitrail {
 
-namespace power_detail {
-VX_HD float bits_to_float(u32 v) {
-    float f;
-    __builtin_memcpy(&f, &v, sizeof f);
-    return f;
-}
-VX_HD u32 float_to_bits(float f) {
-    u32 v;
-    __builtin_memcpy(&v, &f, sizeof v);
-    return v;
-}
-#ifndef __CUDACC__
-VX_HD FloatLanes bits_to_float(UintLanes v) { return (FloatLanes)v; }
-VX_HD UintLanes float_to_bits(FloatLanes f) { return (UintLanes)f; }
-#endif
-} // namespace power_detail
-
-// Logarithm to base 2 of a normal number above 0; relative error of the power below about 1e-5. The mantissa's part by the
-// odd series of atanh: log2 m = 2 / ln 2 * (t + t^3/3 + ...), t = (m - 1) / (m + 1), m in [sqrt 1/2, sqrt 2).
+// Logarithm to base 2 of a normal number above 0; relative error of the power below about 1e-5. The mantissa's part by
+// the odd series of atanh: log2 m = 2 / ln 2 * (t + t^3/3 + ...), t = (m - 1) / (m + 1), m in [sqrt 1/2, sqrt 2).
 template <class L>
 VX_HD_FN typename L::F log2_of(typename L::F v) {
     using F = typename L::F;
     using U = typename L::U;
-    const U bits = power_detail::float_to_bits(v);
+    const U bits = float_bits(v);
     const U shifted = bits + (0x3f800000u - 0x3f3504f3u);
     const auto exponent = as_int(shifted >> 23) - 127;
-    const F m = power_detail::bits_to_float((shifted & 0x7fffffu) + 0x3f3504f3u);
+    const F m = float_of_bits((shifted & 0x7fffffu) + 0x3f3504f3u);
     const F t = (m - 1.0f) / (m + 1.0f), t2 = t * t;
     const F series = 1.0f + t2 * (1.0f / 3.0f + t2 * (1.0f / 5.0f + t2 * (1.0f / 7.0f + t2 * (1.0f / 9.0f))));
     return to_float(exponent) + t * series * 2.88539008f;
@@ -45,7 +28,7 @@ VX_HD_FN typename L::F exp2_of(typename L::F v) {
     const auto whole = floor_int<L>(x + 0.5f);
     const F f = (x - to_float(whole)) * 0.693147181f; // -0.35..0.35
     const F e = 1.0f + f * (1.0f + f * (0.5f + f * (1.0f / 6 + f * (1.0f / 24 + f * (1.0f / 120 + f * (1.0f / 720))))));
-    return e * power_detail::bits_to_float(as_uint(whole + 127) << 23);
+    return e * float_of_bits(as_uint(whole + 127) << 23);
 }
 
 // base to the exponent; 0 where base <= 0.
