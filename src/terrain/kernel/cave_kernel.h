@@ -1,5 +1,5 @@
 // Which blocks of a block column are open: caves, interpolated from the lattice's fields, and ravines. theta = width *
-// height factors; open where theta > .04 and closeness < theta (kernel/lattice_kernel.h says what the fields are).
+// height factors; open where theta > .07 and closeness < theta (kernel/lattice_kernel.h says what the fields are).
 #pragma once
 
 #include "terrain/kernel/lattice_kernel.h"
