@@ -46,6 +46,10 @@ VX_HD_FN void build_jungle_tree(ShapeBuilder<L>& b) {
     for (u32 i = 0; i < branches; ++i) {
         const float r = b.range(3.8f, 5.6f);
         b.ball(ends[i] + Vec3{0.0f, 0.6f, 0.0f}, {r, r * b.range(0.45f, 0.6f), r}, b.sparse(p::leaves, 0.08f));
+        if (b.chance(0.45f)) { // a curtain of creepers
+            const Vec3 at = ends[i] + b.around(b.unit()) * (r * 0.6f);
+            b.cone(at, at - Vec3{0.0f, b.range(3.0f, 8.0f), 0.0f}, 0.72f, 0.5f, b.paint(p::leaves));
+        }
     }
     const float r = 4.0f + height * 0.075f;
     b.ball(top + Vec3{0.0f, 0.5f, 0.0f}, {r, r * 0.55f, r}, b.sparse(p::leaves, 0.08f));

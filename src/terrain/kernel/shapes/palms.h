@@ -17,7 +17,7 @@ VX_HD_FN void build_palm(ShapeBuilder<L>& b) {
     const Vec3 foot{0.5f, -1.5f, 0.5f};
     const Vec3 knee = Vec3{0.5f, height * 0.45f, 0.5f} + side * (lean * 0.9f);
     const Vec3 top = Vec3{0.5f, height, 0.5f} + side * lean;
-    b.log_spline(foot, knee, top, 0.78f, 0.72f, 4, p::trunk);
+    b.log_spline(foot, knee, top, 0.74f, 0.71f, 4, p::trunk);
     const u32 fronds = 8 + b.below(3);
     const float reach = 4.6f + height * 0.13f;
     const Vec3 from = top + Vec3{0.0f, 0.6f, 0.0f};
