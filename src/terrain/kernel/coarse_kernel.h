@@ -14,7 +14,7 @@ inline constexpr i32 kCoarseLevels = kTerrainHeight / kCoarseStep + 1;
 inline constexpr u32 kCoarseVeins = 8; // veined rules whose points are kept; further ones ask their points anew
 
 struct CoarsePlane {
-    float point[32]; // kCoarsePoints of them
+    float point[40]; // kCoarsePoints of them, and room for whole vectors
 };
 struct CoarseFields {
     u32 strata_ready = 0; // bits
@@ -68,15 +68,10 @@ VX_HD typename L::F coarse_at(const CoarsePlane& plane, const Row<L>& row) {
         left = p[0] + (p[5] - p[0]) * part_z;
         right = p[1] + (p[6] - p[1]) * part_z;
     } else {
-        float between[5], spread[32];
-        for (i32 i = 0; i < 5; ++i)
-            between[i] = plane.point[first + i] + (plane.point[first + 5 + i] - plane.point[first + i]) * part_z;
-        for (i32 l = 0; l < 16; ++l) {
-            spread[l] = between[l >> 2];
-            spread[16 + l] = between[(l >> 2) + 1];
-        }
-        left = L::load(spread);
-        right = L::load(spread + 16);
+        const typename L::F p = L::load(plane.point + first), q = L::load(plane.point + first + 5);
+        const typename L::F between = p + (q - p) * part_z; // the first five
+        left = __builtin_shufflevector(between, between, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+        right = __builtin_shufflevector(between, between, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4);
     }
     return left + (right - left) * part_x;
 }

@@ -1,11 +1,12 @@
 // The blocks of one row of a tile before features: bedrock at y = 0, layers (kernel/strata_kernel.h), caves with lava
-// below kTerrainLavaLevel, water above ground below kTerrainSeaLevel, then the rules (kernel/rule_kernel.h). A pure
-// function of the column's own ground and caves.
+// below kTerrainLavaLevel, water above ground below kTerrainSeaLevel, then the rules (kernel/{,cave_}rule_kernel.h). A
+// pure function of the column's own ground and caves.
 //
 // One GPU thread a block column: fill_row(t, thread_row(at, index), ground, caves, nullptr, kTerrainHeight, out).
 #pragma once
 
-#include "terrain/kernel/rule_kernel.h"
+#include "terrain/kernel/cave_layers.h"
+#include "terrain/kernel/cave_rule_kernel.h"
 
 namespace vitrail {
 
