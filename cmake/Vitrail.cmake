@@ -35,6 +35,18 @@ find_package(fmt REQUIRED)
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# CUDA is optional: where nvcc is found the program can use a GPU, and finds out at run time whether there is one.
+set(VITRAIL_CUDA AUTO CACHE STRING "CUDA backend: AUTO, ON or OFF")
+if(NOT VITRAIL_CUDA STREQUAL "OFF" AND NOT VITRAIL_SANITIZE)
+    find_program(VITRAIL_NVCC nvcc HINTS /usr/local/cuda/bin)
+    if(VITRAIL_NVCC)
+        file(REAL_PATH ${VITRAIL_NVCC} nvcc)
+        get_filename_component(VITRAIL_CUDA_ROOT ${nvcc}/../.. ABSOLUTE)
+    elseif(VITRAIL_CUDA STREQUAL "ON")
+        message(FATAL_ERROR "VITRAIL_CUDA is ON, but there is no nvcc")
+    endif()
+endif()
+
 # vitrail_pkg(NAME MODULE...): imported target pkg::NAME for pkg-config modules, as system headers.
 function(vitrail_pkg name)
     if(NOT TARGET PkgConfig::${name})
@@ -64,6 +76,29 @@ function(vitrail_library folder)
     endif()
     target_include_directories(vitrail_${folder} PUBLIC ${CMAKE_SOURCE_DIR}/src)
     target_link_libraries(vitrail_${folder} PUBLIC fmt::fmt Threads::Threads ${ARGN})
+    file(GLOB_RECURSE cuda CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cu)
+    if(cuda AND VITRAIL_NVCC)
+        vitrail_cuda_sources(vitrail_${folder} ${cuda})
+    endif()
+endfunction()
+
+# vitrail_cuda_sources(TARGET file.cu...): objects made by nvcc, with a static CUDA runtime, so that the program also starts
+# where there is no driver. Not CMake's CUDA language: it would take over linking, and its version 3.25 knows no C++20 there.
+function(vitrail_cuda_sources target)
+    foreach(source IN LISTS ARGN)
+        get_filename_component(name ${source} NAME_WE)
+        set(object ${CMAKE_CURRENT_BINARY_DIR}/${name}.cu.o)
+        add_custom_command(OUTPUT ${object}
+            COMMAND ${VITRAIL_NVCC} -std=c++20 -O3 --fmad=false --expt-relaxed-constexpr -Xcompiler=-fPIC,-ffp-contract=off
+                    -gencode arch=compute_75,code=compute_75 -gencode arch=compute_90,code=sm_90
+                    -I${CMAKE_SOURCE_DIR}/src -MD -MF ${object}.d -c ${source} -o ${object}
+            DEPENDS ${source} DEPFILE ${object}.d COMMENT "CUDA ${name}.cu" VERBATIM)
+        target_sources(${target} PRIVATE ${object})
+        set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+    endforeach()
+    target_compile_definitions(${target} PRIVATE VITRAIL_CUDA=1)
+    target_include_directories(${target} SYSTEM PRIVATE ${VITRAIL_CUDA_ROOT}/include)
+    target_link_libraries(${target} PUBLIC ${VITRAIL_CUDA_ROOT}/lib64/libcudart_static.a dl rt)
 endfunction()
 
 # tests/FOLDER/*_test.cpp become one program test_FOLDER; a test named *Slow* or *Long* belongs to ./test --long.

@@ -1,5 +1,5 @@
-// ColumnBatchMaker: whole rectangles of columns at once, several under way at a time; what a GPU wants to be asked. Made by
-// open_cuda_batches (cuda/device.h).
+// ColumnBatchMaker: whole rectangles of columns at once, several under way at a time; what a GPU wants to be asked.
+// Made by open_cuda_batches (cuda/device.h).
 #pragma once
 
 #include "terrain/generator.h"
@@ -21,12 +21,12 @@ struct BatchTimes {
 class ColumnBatchMaker {
 public:
     virtual ~ColumnBatchMaker() = default;
-    // Starts a rectangle of at most max_columns() and returns its number; waits while max_batches() are under way.
-    // Errors: limit (too large), io (the device failed; it is then of no more use).
+    // Starts a rectangle of at most max_columns_a_side() squared and returns its number; at most max_batches() are
+    // under way. Errors: limit (too large, too many), io (the device failed; it is then of no more use).
     virtual Result<u32> submit(ColumnRect rect) = 0;
     // Waits for it. Columns row by row. Errors: io; invalid_argument (no such number).
     virtual Result<std::vector<GeneratedColumn>> collect(u32 number, const TerrainPalette& palette) = 0;
-    virtual u32 max_columns() const = 0;
+    virtual u32 max_columns_a_side() const = 0;
     virtual u32 max_batches() const = 0;
     virtual std::string device_name() const = 0;
     virtual BatchTimes times() const = 0; // of all collected batches together

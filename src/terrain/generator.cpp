@@ -31,8 +31,9 @@ std::shared_ptr<const FeatureTile> shrunk(const FeatureTile& tile, u64& bytes) {
     bytes = offsetof(FeatureTile, primitive) + tile.primitives * sizeof(Primitive);
     void* memory = ::operator new(bytes, std::align_val_t(alignof(FeatureTile)));
     std::memcpy(memory, &tile, bytes);
-    return {static_cast<const FeatureTile*>(memory),
-            [](const FeatureTile* p) { ::operator delete(const_cast<FeatureTile*>(p), std::align_val_t(alignof(FeatureTile))); }};
+    return {static_cast<const FeatureTile*>(memory), [](const FeatureTile* p) {
+                ::operator delete(const_cast<FeatureTile*>(p), std::align_val_t(alignof(FeatureTile)));
+            }};
 }
 
 } // namespace
@@ -77,27 +78,29 @@ struct TerrainGenerator::State {
         return {std::move(zone_tiles), own};
     }
     std::shared_ptr<const LatticeTile> lattice(ColumnPos at) {
-        return tile<LatticeTile>(TerrainStage::lattice, at, [&](LatticeTile& out) { stages->lattice(tables(), at, out); });
+        return tile<LatticeTile>(TerrainStage::lattice, at,
+                                 [&](LatticeTile& out) { stages->lattice(tables(), at, out); });
     }
     std::shared_ptr<const CaveTile> caves(ColumnPos at) {
         return tile<CaveTile>(TerrainStage::caves, at, [&](CaveTile& out) {
             const auto own = ground(at);
-            const std::shared_ptr<const LatticeTile> held[4] = {lattice(at), lattice(moved(at, 1, 0)), lattice(moved(at, 0, 1)),
-                                                                lattice(moved(at, 1, 1))};
+            const std::shared_ptr<const LatticeTile> held[4] = {lattice(at), lattice(moved(at, 1, 0)),
+                                                                lattice(moved(at, 0, 1)), lattice(moved(at, 1, 1))};
             const LatticeTile* lattices[4] = {held[0].get(), held[1].get(), held[2].get(), held[3].get()};
             stages->caves(tables(), at, *own, lattices, out);
         });
     }
     std::shared_ptr<const FeatureTile> features(ColumnPos at) {
-        return std::static_pointer_cast<const FeatureTile>(cache.get({u32(TerrainStage::features), at}, [&]() -> StageCache::Made {
-            const auto own = ground(at);
-            const auto open = caves(at);
-            static thread_local std::unique_ptr<FeatureTile> scratch = std::make_unique<FeatureTile>();
-            stages->features(tables(), at, *own, *open, *scratch);
-            StageCache::Made made;
-            made.value = shrunk(*scratch, made.bytes);
-            return made;
-        }));
+        return std::static_pointer_cast<const FeatureTile>(
+            cache.get({u32(TerrainStage::features), at}, [&]() -> StageCache::Made {
+                const auto own = ground(at);
+                const auto open = caves(at);
+                static thread_local std::unique_ptr<FeatureTile> scratch = std::make_unique<FeatureTile>();
+                stages->features(tables(), at, *own, *open, *scratch);
+                StageCache::Made made;
+                made.value = shrunk(*scratch, made.bytes);
+                return made;
+            }));
     }
     void fill(ColumnPos at, const GroundTile& own, const CaveTile& open, BlockTile& out) {
         std::shared_ptr<const FeatureTile> held[49];
@@ -130,7 +133,7 @@ GeneratedColumn TerrainGenerator::generate(ColumnPos at, const TerrainPalette& p
     const auto open = state_->caves(at);
     state_->fill(at, *own, *open, *scratch);
     BiomeTile biomes;
-    make_biome_tile(state_->tables(), *own, *open, biomes);
+    state_->stages->biomes(state_->tables(), *own, *open, biomes);
     return pack_column(*scratch, biomes, palette);
 }
 
@@ -179,7 +182,8 @@ void TerrainGenerator::missing(ColumnPos at, std::vector<TerrainTask>& out) cons
         if (has(TerrainStage::features, p)) continue;
         need_zone(zone_of(p));
         if (!has(TerrainStage::caves, p)) {
-            for (i32 k = 0; k < 4; ++k) need(TerrainStage::lattice, moved(p, k & 1, k >> 1));
+            for (i32 k = 0; k < 4; ++k)
+                need(TerrainStage::lattice, moved(p, k & 1, k >> 1));
             out.push_back({TerrainStage::caves, p});
         }
         out.push_back({TerrainStage::features, p});
@@ -188,7 +192,8 @@ void TerrainGenerator::missing(ColumnPos at, std::vector<TerrainTask>& out) cons
     if (out.size() == start) {
         need_zone(zone_of(at));
         if (!has(TerrainStage::caves, at)) {
-            for (i32 k = 0; k < 4; ++k) need(TerrainStage::lattice, moved(at, k & 1, k >> 1));
+            for (i32 k = 0; k < 4; ++k)
+                need(TerrainStage::lattice, moved(at, k & 1, k >> 1));
             out.push_back({TerrainStage::caves, at});
         }
     }
@@ -196,13 +201,24 @@ void TerrainGenerator::missing(ColumnPos at, std::vector<TerrainTask>& out) cons
 
 void TerrainGenerator::run(TerrainTask task) const {
     switch (task.stage) {
-    case TerrainStage::land: state_->land(task.at); break;
-    case TerrainStage::ground: state_->zone(task.at); break;
-    case TerrainStage::lattice: state_->lattice(task.at); break;
-    case TerrainStage::caves: state_->caves(task.at); break;
-    case TerrainStage::features: state_->features(task.at); break;
+    case TerrainStage::land:
+        state_->land(task.at);
+        break;
+    case TerrainStage::ground:
+        state_->zone(task.at);
+        break;
+    case TerrainStage::lattice:
+        state_->lattice(task.at);
+        break;
+    case TerrainStage::caves:
+        state_->caves(task.at);
+        break;
+    case TerrainStage::features:
+        state_->features(task.at);
+        break;
     case TerrainStage::blocks:
-    case TerrainStage::count: break;
+    case TerrainStage::count:
+        break;
     }
 }
 

@@ -1,12 +1,13 @@
-// TerrainGenerator: blocks of the endless world, a pure function of (description, seed, column): the same whatever the order
-// of columns, the number of threads, the compiler, the vector width or the device. How to use it:
+// TerrainGenerator: blocks of the endless world, a pure function of (description, seed, column): the same whatever the
+// order of columns, the number of threads, the compiler, the vector width or the device. How to use it:
 //
 //     VX_TRY_ASSIGN(auto generator, TerrainGenerator::create(description, seed));
 //     TerrainPalette palette = ...;   // pipeline/new_world.h: ids for generator->block_names(), biome_names()
 //     GeneratedColumn column = generator->generate({x, z}, palette);   // any thread
 //
-// Stages and their reach stand in terrain/tiles.h. Results of stages are kept for the columns around, up to a bound of bytes;
-// who schedules work himself asks `missing` what a column still needs and runs that first, each part on any thread.
+// Stages and their reach stand in terrain/tiles.h. Results of stages are kept for the columns around, up to a bound of
+// bytes; who schedules work himself asks `missing` what a column still needs and runs that first, each part on any
+// thread.
 #pragma once
 
 #include "base/result.h"
@@ -89,7 +90,6 @@ private:
 };
 
 // Chunks and heights of a tile: the last step of the CPU and the CUDA backend alike.
-void make_biome_tile(const TerrainTables& tables, const GroundTile& ground, const CaveTile& caves, BiomeTile& out);
 GeneratedColumn pack_column(const BlockTile& tile, const BiomeTile& biomes, const TerrainPalette& palette);
 
 // A pretty, dry, open place near the origin: where the feet stand.

@@ -1,6 +1,5 @@
 // From a tile of raw blocks to chunks with palettes, biomes and heights.
 #include "terrain/generator.h"
-#include "terrain/kernel/biome_grid_kernel.h"
 
 #include <cstring>
 
@@ -13,13 +12,15 @@ BlockStorage pack_section(const Block* blocks, const TerrainPalette& palette) {
     // Sections of one block are frequent: compare with itself shifted by one cell.
     if (std::memcmp(blocks, blocks + 1, kChunkVolume - 1) == 0) return BlockStorage(palette.blocks[blocks[0]]);
     u8 present[kBlocksMost] = {};
-    for (i32 i = 0; i < kChunkVolume; ++i) present[blocks[i]] = 1;
+    for (i32 i = 0; i < kChunkVolume; ++i)
+        present[blocks[i]] = 1;
     u8 slot[kBlocksMost];
     std::vector<StateId> states;
     for (u32 b = 0; b < palette.blocks.size() && b < kBlocksMost; ++b) {
         if (!present[b]) continue;
         u32 s = 0;
-        while (s < states.size() && states[s] != palette.blocks[b]) ++s;
+        while (s < states.size() && states[s] != palette.blocks[b])
+            ++s;
         if (s == states.size()) states.push_back(palette.blocks[b]);
         slot[b] = u8(s);
     }
@@ -30,7 +31,8 @@ BlockStorage pack_section(const Block* blocks, const TerrainPalette& palette) {
     const Block* at = blocks;
     for (u64& word : words) {
         u64 w = 0;
-        for (u32 i = 0; i < cells; ++i) w |= u64(slot[at[i]]) << (i * bits);
+        for (u32 i = 0; i < cells; ++i)
+            w |= u64(slot[at[i]]) << (i * bits);
         word = w;
         at += cells;
     }
@@ -38,10 +40,6 @@ BlockStorage pack_section(const Block* blocks, const TerrainPalette& palette) {
 }
 
 } // namespace
-
-void make_biome_tile(const TerrainTables& tables, const GroundTile& ground, const CaveTile& caves, BiomeTile& out) {
-    for (i32 cell = 0; cell < i32(sizeof out.biome); ++cell) out.biome[cell] = grid_biome(tables, ground, caves, cell);
-}
 
 GeneratedColumn pack_column(const BlockTile& tile, const BiomeTile& biomes, const TerrainPalette& palette) {
     GeneratedColumn out;
@@ -55,7 +53,8 @@ GeneratedColumn pack_column(const BlockTile& tile, const BiomeTile& biomes, cons
     }
     for (i32 i = 0; i < kColumnCells; ++i) {
         i32 y = tile.top;
-        while (y > 0 && !palette.takes_light[tile.block[(y - 1) << 8 | i]]) --y;
+        while (y > 0 && !palette.takes_light[tile.block[(y - 1) << 8 | i]])
+            --y;
         out.heights[std::size_t(i)] = kTerrainMinY + y;
     }
     return out;

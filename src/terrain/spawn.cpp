@@ -9,7 +9,8 @@ namespace {
 // How good a place the middle of a column is, by its land: dry, not too high, level; 0 is hopeless.
 float comfort(const TerrainTables& t, const LandTile& land) {
     float least = land.height[0], most = least;
-    for (const float h : land.height) least = std::min(least, h), most = std::max(most, h);
+    for (const float h : land.height)
+        least = std::min(least, h), most = std::max(most, h);
     if (least < kTerrainSeaLevel + 3 || most > kTerrainSeaLevel + 40) return 0;
     const float dry = t.ocean < 0 ? 1 : 1 - land.attribute[t.ocean][136];
     return dry / (1 + std::max(0.0f, most - least - 3));
@@ -33,11 +34,13 @@ BlockPos spawn_point(const TerrainGenerator& generator) {
             for (i32 spiral = 0; spiral < kColumnCells; ++spiral) {
                 const i32 x = (spiral * 5 + 8) & 15, z = ((spiral >> 4) * 3 + 8) & 15, index = x | z << 4;
                 i32 y = i32(ground->top[index]) + 1;
-                while (y > 0 && tile->block[(y - 1) << 8 | index] == kAir) --y;
+                while (y > 0 && tile->block[(y - 1) << 8 | index] == kAir)
+                    --y;
                 const Block below = tile->block[std::max(0, y - 1) << 8 | index];
                 if (y < kTerrainSeaLevel || !(t.traits[below] & trait_ground)) continue;
                 bool open = true; // nothing overhead, and room beside
-                for (i32 k = y; k < std::max(y + 3, tile->top); ++k) open &= tile->block[k << 8 | index] == kAir;
+                for (i32 k = y; k < std::max(y + 3, tile->top); ++k)
+                    open &= tile->block[k << 8 | index] == kAir;
                 if (open) return {i32(u32(at.x) * 16) + x, y, i32(u32(at.z) * 16) + z};
             }
         }

@@ -1,5 +1,5 @@
-// StageCache: results of terrain stages by (stage, column), made once, kept up to a bound of bytes, the least recently used
-// dropped first. A result in use stays alive through its shared_ptr.
+// StageCache: results of terrain stages by (stage, column), made once, kept up to a bound of bytes, the least recently
+// used dropped first. A result in use stays alive through its shared_ptr.
 #pragma once
 
 #include "voxel/coords.h"

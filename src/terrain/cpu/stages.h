@@ -24,6 +24,7 @@ struct TerrainStages {
     // features: of the 7 x 7 columns around, row by row (-z first, then -x).
     void (*draw)(const TerrainTables&, ColumnPos at, const FeatureTile* const features[49], BlockTile& blocks) = nullptr;
     void (*decorate)(const TerrainTables&, ColumnPos at, const GroundTile&, const CaveTile&, BlockTile& blocks) = nullptr;
+    void (*biomes)(const TerrainTables&, const GroundTile&, const CaveTile&, BiomeTile& out) = nullptr;
 };
 
 const TerrainStages& terrain_stages(Isa isa); // the CPU must have it: best_isa() or lower

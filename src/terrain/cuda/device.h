@@ -1,5 +1,5 @@
-// The CUDA backend: the same kernels as on the CPU, a thread a block column, many columns a launch. One binary serves machines
-// with and without a GPU.
+// The CUDA backend: the same kernels as on the CPU, a thread a block column, many columns a launch. One binary serves
+// machines with and without a GPU.
 #pragma once
 
 #include "terrain/batch.h"
