@@ -292,7 +292,9 @@ TEST(Noise, CellDistancesEqualASearchOfAllPoints) {
                     best[1] = std::min(best[1], d);
             }
         }
-        if (best[0] < 0.999) EXPECT_NEAR(c2.f1, best[0], 1e-5);
+        if (best[0] < 0.999) {
+            EXPECT_NEAR(c2.f1, best[0], 1e-5);
+        }
         differ += std::abs(double(c2.f1) - best[0]) > 1e-5 || std::abs(double(c2.f2) - best[1]) > 1e-5;
     }
     EXPECT_LT(differ, 40); // 3 x 3 cells miss few

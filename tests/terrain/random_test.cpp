@@ -70,8 +70,9 @@ TEST(RandomKernel, NeighborsDoNotKnowOfEachOther) {
         // Mirrored and exchanged coordinates, levels, further numbers.
         EXPECT_NEAR(correlate(at, here, [&](u32 x, u32 z) { return random_bits(key, 0u - x - 1, z); }), 0, kMost);
         EXPECT_NEAR(correlate(at, here, [&](u32 x, u32 z) { return random_bits(key, x, 0u - z - 1); }), 0, kMost);
-        if (at.x != at.z)
+        if (at.x != at.z) {
             EXPECT_NEAR(correlate(at, here, [&](u32 x, u32 z) { return random_bits(key, z, x); }), 0, kMost);
+        }
         EXPECT_NEAR(correlate(
                         at, [&](u32 x, u32 z) { return random_bits(key, x, 5u, z); },
                         [&](u32 x, u32 z) { return random_bits(key, x, 6u, z); }),
