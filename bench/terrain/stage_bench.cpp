@@ -5,6 +5,7 @@
 
 #include "terrain/compile/compile.h"
 #include "terrain/cpu/stages.h"
+#include "terrain/generator.h"
 
 #include <memory>
 #include <vector>
@@ -104,12 +105,80 @@ static void bench_caves(bench::Context& c) {
     });
 }
 
+// Squares of columns with all that the stage reads: `side` columns a side and the ring of features around them.
+namespace {
+struct FeatureSquares {
+    static constexpr i32 kSquares = 24, kSide = 4, kWide = kSide + 2 * kFeatureReach;
+    std::shared_ptr<TerrainGenerator> generator;
+    std::vector<std::shared_ptr<const GroundTile>> ground;
+    std::vector<std::shared_ptr<const CaveTile>> caves;
+    std::vector<FeatureTile> features;
+
+    static ColumnPos place(i32 i) {
+        const i32 square = i / (kWide * kWide);
+        return {square * 511 - 6000 + i % kWide, square * 307 - 4000 + i / kWide % kWide};
+    }
+    FeatureSquares()
+        : generator(TerrainGenerator::create(base_terrain(), 1).value())
+        , features(std::size_t(kSquares * kWide * kWide)) {
+        for (i32 i = 0; i < i32(features.size()); ++i) {
+            ground.push_back(generator->ground(place(i)));
+            caves.push_back(generator->caves(place(i)));
+            make(i);
+        }
+    }
+    void make(i32 i) {
+        const std::size_t k = std::size_t(i);
+        terrain_stages(best_isa()).features(generator->tables(), place(i), *ground[k], *caves[k], features[k]);
+    }
+};
+} // namespace
+
+static void bench_features(bench::Context& c) {
+    FeatureSquares squares;
+    c.measure(double(squares.features.size()), [&] {
+        for (i32 i = 0; i < i32(squares.features.size()); ++i)
+            squares.make(i);
+        bench::keep(squares.features[0]);
+    });
+}
+
+static void bench_draw(bench::Context& c) {
+    using S = FeatureSquares;
+    S squares;
+    constexpr i32 kColumns = S::kSquares * S::kSide * S::kSide;
+    std::vector<BlockTile> filled(std::size_t{kColumns}), drawn;
+    const auto own = [](i32 i) { // where column i of a square stands among all tiles
+        return i / (S::kSide * S::kSide) * S::kWide * S::kWide + (i / S::kSide % S::kSide + kFeatureReach) * S::kWide +
+               i % S::kSide + kFeatureReach;
+    };
+    for (i32 i = 0; i < kColumns; ++i)
+        terrain_stages(best_isa())
+            .fill(squares.generator->tables(), S::place(own(i)), *squares.ground[std::size_t(own(i))],
+                  *squares.caves[std::size_t(own(i))], filled[std::size_t(i)]);
+    c.measure(
+        kColumns, [&] { drawn = filled; },
+        [&] {
+            for (i32 i = 0; i < kColumns; ++i) {
+                const FeatureTile* around[49];
+                for (i32 k = 0; k < 49; ++k)
+                    around[k] = &squares.features[std::size_t(own(i) + (k / 7 - kFeatureReach) * S::kWide + k % 7 -
+                                                              kFeatureReach)];
+                terrain_stages(best_isa())
+                    .draw(squares.generator->tables(), S::place(own(i)), around, drawn[std::size_t(i)]);
+            }
+            bench::keep(drawn[0]);
+        });
+}
+
 void register_stage_benches(bench::Suite& suite);
 void register_stage_benches(bench::Suite& suite) {
     suite.add("terrain.land", "/s", "columns, one core", bench_land);
     suite.add("terrain.ground", "/s", "columns of whole zones, one core", bench_ground);
     suite.add("terrain.lattice", "/s", "columns, one core", bench_lattice);
     suite.add("terrain.caves", "/s", "columns, one core", bench_caves);
+    suite.add("terrain.features", "/s", "columns, one core", bench_features);
+    suite.add("terrain.draw", "/s", "columns, one core", bench_draw);
 }
 
 } // namespace vitrail

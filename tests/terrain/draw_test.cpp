@@ -197,7 +197,7 @@ TEST_P(DrawShape, IsNotCutAtBordersOfColumns) {
 TEST_P(DrawShape, CrowdsTakeTurns) {
     const Shape shape = Shape(GetParam());
     World w(place_of(shape));
-    w.add(shape, 9, 0, .8f);
+    w.add(shape, shape == Shape::iceberg ? 31 : 9, 0, .8f);
     EXPECT_GT(check_area(w, {-2, -1}, 3), 8);
 }
 

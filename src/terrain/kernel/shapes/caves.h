@@ -28,6 +28,10 @@ VX_HD_FN void build_stormlight(ShapeBuilder<L>& b) {
         middle.y = r + least(spare, b.range(0.2f, 1.4f));
         pole = -1.0f;
     }
+    // On the middle of a block and of half a block more than a whole radius: rounder so.
+    middle = {to_float(floor_int<L>(middle.x)) + 0.5f, to_float(floor_int<L>(middle.y)) + 0.5f,
+              to_float(floor_int<L>(middle.z)) + 0.5f};
+    r = to_float(floor_int<L>(r)) + 0.4f;
     b.ball(middle, greatest(r * 0.46f, 0.9f), core);
     // What holds the core within the ball.
     b.cone(middle, middle + Vec3{0.0f, pole * r, 0.0f}, 0.5f, 0.5f, cord);
@@ -42,14 +46,14 @@ VX_HD_FN void build_stormlight(ShapeBuilder<L>& b) {
             const Vec3 from = middle + b.towards(at, b.range(-0.17f, -0.1f)) * (r + 0.2f);
             const float fall = least(b.range(1.5f, 3.5f) + r * 0.5f, greatest(from.y + room - 2.0f, 1.0f));
             b.spline(from, from + out * 0.9f + Vec3{0.0f, -fall * 0.4f, 0.0f},
-                     from - out * 0.3f + Vec3{0.0f, -fall, 0.0f}, 0.6f, 0.45f, 3, cord);
+                     from - out * 0.3f + Vec3{0.0f, -fall, 0.0f}, 0.75f, 0.6f, 3, cord);
         } else {
             const Vec3 from = middle + b.towards(at, b.range(-0.12f, 0.03f)) * (r + 0.1f);
             const Vec3 to = b.root() + out * (r + b.range(1.0f, 3.0f)) + Vec3{0.0f, -1.5f, 0.0f};
-            b.spline(from, Vec3{from.x, from.y, from.z} + out * b.range(0.8f, 2.0f), to, 0.7f, 0.55f, 4, cord);
+            b.spline(from, Vec3{from.x, from.y, from.z} + out * b.range(0.8f, 2.0f), to, 0.85f, 0.75f, 4, cord);
         }
     }
-    if (hanging) b.cone(middle + Vec3{0.0f, r - 0.5f, 0.0f}, b.root() + Vec3{0.0f, 2.0f, 0.0f}, 0.6f, 0.75f, cord);
+    if (hanging) b.cone(middle + Vec3{0.0f, r - 1.2f, 0.0f}, b.root() + Vec3{0.0f, 2.0f, 0.0f}, 0.8f, 0.8f, cord);
 }
 
 // A six-sided crystal from floor to ceiling, with smaller ones about its foot and its head. numbers: radius.
@@ -68,7 +72,7 @@ VX_HD_FN void build_crystal_pillar(ShapeBuilder<L>& b) {
     const float turn = b.unit();
     for (u32 i = 0; i < shards; ++i) {
         const bool up = (i & 1) == 0; // from the floor
-        const float wide = greatest(r * b.range(0.35f, 0.6f), 0.7f), far = least(room * b.range(0.25f, 0.55f), 11.0f);
+        const float wide = greatest(r * b.range(0.4f, 0.65f), 0.95f), far = least(room * b.range(0.25f, 0.5f), 12.0f);
         const float where = turn + (float(i) + b.range(-0.3f, 0.3f)) / float(shards);
         Vec3 out = b.towards(where, b.range(0.12f, 0.2f));
         Vec3 from = foot;
@@ -76,9 +80,9 @@ VX_HD_FN void build_crystal_pillar(ShapeBuilder<L>& b) {
             from = head;
             out.y = -out.y;
         }
-        const Vec3 neck = from + out * (far * 0.78f + 2.0f);
+        const Vec3 neck = from + out * (far * 0.7f + 2.0f);
         b.prism(from, neck, wide, wide * 0.9f, p);
-        b.prism(neck, neck + out * (far * 0.22f + 1.0f), wide * 0.9f, 0.1f, p);
+        b.prism(neck, neck + out * (far * 0.3f + 1.5f), wide * 0.9f, 0.3f, p);
     }
 }
 
@@ -95,7 +99,7 @@ VX_HD_FN void build_glowstone_cluster(ShapeBuilder<L>& b) {
         const Vec3 away = b.around(b.unit());
         Vec3 at = b.root() + away * (size * b.range(0.0f, 0.75f)) + Vec3{0.0f, 1.0f, 0.0f};
         float r = size * b.range(0.2f, 0.36f);
-        const u32 links = 2 + b.below(3);
+        const u32 links = 2 + b.below(4);
         for (u32 k = 0; k < links; ++k) {
             b.ball(at, Vec3{greatest(r, 0.55f), greatest(r * 1.3f, 0.7f), greatest(r, 0.55f)},
                    k + 1 == links ? solid : p);
@@ -103,7 +107,7 @@ VX_HD_FN void build_glowstone_cluster(ShapeBuilder<L>& b) {
             const float out = r * b.range(0.2f, 0.8f), down = r * b.range(1.0f, 1.7f) + 0.5f;
             const Vec3 next = at + side * out - Vec3{0.0f, down, 0.0f};
             if (next.y < -deepest) break;
-            if (k + 1 < links && r < 1.0f) b.cone(at, next, 0.55f, 0.5f, solid);
+            if (k + 1 < links && r < 1.0f) b.cone(at, next, 0.8f, 0.8f, solid);
             at = next;
             r = r * b.range(0.6f, 0.9f);
         }

@@ -64,7 +64,7 @@ VX_HD_FN void flames(ShapeBuilder<L>& b, float size, Brush p) {
         const float long_by = size * b.range(0.8f, 1.25f);
         const Vec3 middle = b.root() + out * (long_by * 0.5f),
                    tip = b.root() + out * (long_by * 0.8f) + Vec3{0.0f, long_by * 0.3f, 0.0f};
-        b.spline(b.root(), middle, tip, 0.8f, 0.5f, 3, p);
+        b.spline(b.root(), middle, tip, 0.85f, 0.7f, 3, p);
     }
 }
 
@@ -115,54 +115,128 @@ VX_HD_FN void build_kelp(ShapeBuilder<L>& b) {
     b.voxel(0, height - 1, 0, tip);
 }
 
-// A mountain of ice that floats: peaks and a shelf above the water, a keel down to the floor or as deep as it is wide,
-// blue ice within that shows where the packed ice around it is thin, snow on all that faces the sky. Stands on the
-// sea's surface or on its floor, the water's depth below. numbers: radius.
+namespace iceberg_detail {
+
+// Blocks of an iceberg: the same wobble for all, so that snow and blue bands follow the ice they lie on.
+struct Ice {
+    Brush ice, blue, snow;
+};
+template <class L>
+VX_HD_FN Ice brushes(ShapeBuilder<L>& b, float wobble) {
+    Ice p{b.wobbly(b.paint(parts::iceberg::ice), wobble, true), b.wobbly(b.paint(parts::iceberg::core), wobble, true),
+          b.wobbly(b.paint(parts::iceberg::snow), wobble, true)};
+    p.ice.flags = p.blue.flags = solid_in_water;
+    return p;
+}
+
+// What stands above the water: solids around an axis each.
+constexpr u32 kBlocksOfIceMost = 7;
+struct Bodies {
+    Vec3 foot[kBlocksOfIceMost], top[kBlocksOfIceMost];
+    float wide[kBlocksOfIceMost], sharp[kBlocksOfIceMost]; // radii at foot and top
+    u32 count = 0;
+    bool flat = false; // tables with cliffs, else peaks
+};
+
+// Tables: a few broad blocks with level or gently sloping tops, one higher than the others.
+template <class L>
+VX_HD_FN void tables(ShapeBuilder<L>& b, Vec3 middle, float radius, Bodies& out) {
+    out.flat = true;
+    out.count = 2 + b.below(3);
+    const float turn = b.unit(), slope = b.range(0.0f, 0.3f);
+    const Vec3 lean = b.around(b.unit());
+    for (u32 i = 0; i < out.count; ++i) {
+        const float away = i == 0 ? b.range(0.0f, 0.15f) : b.range(0.35f, 0.55f);
+        const float high = i == 0 ? radius * b.range(0.4f, 0.75f) : radius * b.range(0.15f, 0.45f);
+        const Vec3 axis = Vec3{0.0f, 1.0f, 0.0f} + lean * (slope * b.range(0.4f, 1.0f));
+        const Vec3 at =
+            middle + b.around(turn + (float(i) + b.range(-0.2f, 0.2f)) / float(out.count)) * (radius * away);
+        out.foot[i] = at - axis * (radius * 0.3f);
+        out.top[i] = at + axis * high;
+        out.wide[i] = radius * (i == 0 ? b.range(0.5f, 0.66f) : b.range(0.3f, 0.46f));
+        out.sharp[i] = out.wide[i] * b.range(0.78f, 0.95f);
+    }
+}
+
+// Peaks: steep ones close together, the first the highest, leaning the same way.
+template <class L>
+VX_HD_FN void peaks(ShapeBuilder<L>& b, Vec3 middle, float radius, Bodies& out) {
+    out.flat = false;
+    out.count = 4 + b.below(4);
+    const float turn = b.unit(), highest = radius * b.range(0.9f, 1.4f);
+    const Vec3 lean = b.around(b.unit()) * (radius * b.range(0.05f, 0.25f));
+    for (u32 i = 0; i < out.count; ++i) {
+        const float share = i == 0 ? 1.0f : b.range(0.25f, 0.75f), away = i == 0 ? 0.1f : b.range(0.3f, 0.62f);
+        const Vec3 at = middle + b.around(turn + float(i) * 0.38f + b.range(-0.1f, 0.1f)) * (radius * away);
+        out.foot[i] = at - Vec3{0.0f, radius * 0.25f, 0.0f};
+        out.top[i] = at + lean * share + Vec3{0.0f, highest * share, 0.0f};
+        out.wide[i] = radius * (i == 0 ? b.range(0.42f, 0.52f) : b.range(0.24f, 0.4f));
+        out.sharp[i] = greatest(out.wide[i] * b.range(0.06f, 0.22f), 1.2f);
+    }
+}
+
+} // namespace iceberg_detail
+
+// A mountain of ice that floats: tables or peaks above the water, a keel of lobes down to the floor or as deep as it is
+// wide, blue ice below and in bands, snow on all that faces the sky, a few broken pieces around. Stands on the sea's
+// surface or on its floor, the water's depth below. numbers: radius.
 template <class L>
 VX_HD_FN void build_iceberg(ShapeBuilder<L>& b) {
+    using namespace iceberg_detail;
     const float radius = b.range(b.number(parts::iceberg::radius_least), b.number(parts::iceberg::radius_most));
     const float sea = b.row.place == FeaturePlace::sea_surface ? 0.0f : b.room();
-    const float keel = least(b.room() + 2.0f, radius * b.range(1.2f, 1.8f));
-    Brush ice = b.wobbly(b.paint(parts::iceberg::ice), 2.5f),
-          blue = b.wobbly(b.paint(parts::iceberg::core), 3.5f, true);
-    Brush snow = b.wobbly(b.paint(parts::iceberg::snow), 2.5f);
-    ice.flags = blue.flags = solid_in_water;
+    const float keel = least(b.room() + 2.0f, radius * b.range(1.1f, 1.7f));
     const Vec3 middle = b.root() + Vec3{0.0f, sea, 0.0f};
-    const float turn = b.unit();
+    const Ice above = brushes(b, 4.0f), below = brushes(b, 6.0f);
+    Bodies body;
+    if (b.chance(0.5f))
+        tables(b, middle, radius, body);
+    else
+        peaks(b, middle, radius, body);
 
-    // Peaks: the first in the middle and highest, the others around it, all leaning the same way.
-    constexpr u32 kPeaksMost = 6;
-    Vec3 foot[kPeaksMost], top[kPeaksMost];
-    float wide[kPeaksMost], sharp[kPeaksMost];
-    const u32 peaks = 3 + b.below(kPeaksMost - 2);
-    const Vec3 side = b.around(b.unit());
-    const Vec3 lean = side * (radius * b.range(0.0f, 0.22f));
-    const float highest = radius * b.range(0.75f, 1.35f);
-    for (u32 i = 0; i < peaks; ++i) {
-        const float away = i == 0 ? 0.08f : b.range(0.3f, 0.55f), share = i == 0 ? 1.0f : b.range(0.3f, 0.8f);
-        foot[i] = middle + b.around(turn + float(i) * 0.27f + b.range(-0.08f, 0.08f)) * (radius * away);
-        top[i] = foot[i] + lean * share + Vec3{0.0f, highest * share, 0.0f};
-        wide[i] = radius * (i == 0 ? b.range(0.42f, 0.5f) : b.range(0.2f, 0.36f));
-        sharp[i] = wide[i] * b.range(0.12f, 0.45f);
+    // Blue ice first, it keeps its voxels: the heart of the keel, and bands through what stands above.
+    b.ball(middle + Vec3{0.0f, -keel * 0.42f, 0.0f}, Vec3{radius * 0.66f, keel * 0.6f, radius * 0.66f}, below.blue);
+    for (u32 i = 0; i < body.count; ++i) {
+        if (!b.chance(0.55f)) continue;
+        const float at = b.range(0.25f, 0.8f), thick = b.range(0.02f, 0.07f);
+        const Vec3 axis = body.top[i] - body.foot[i];
+        const float r = body.wide[i] + (body.sharp[i] - body.wide[i]) * at,
+                    slope = (body.sharp[i] - body.wide[i]) * thick;
+        b.cylinder(body.foot[i] + axis * at, body.foot[i] + axis * (at + thick), r - 0.4f, r + slope - 0.4f,
+                   above.blue);
     }
-    const float squeeze = b.range(0.72f, 1.0f), shelf = b.range(3.0f, 6.5f);
-    const bool along_x = b.chance(0.5f);
-    const float wide_x = radius * (along_x ? 1.0f : squeeze), wide_z = radius * (along_x ? squeeze : 1.0f);
-
-    // Blue hearts first: they keep their voxels, the packed ice lies around them.
-    b.ball(middle + Vec3{0.0f, -keel * 0.3f, 0.0f}, Vec3{wide_x * 0.8f, keel * 0.62f, wide_z * 0.8f}, blue);
-    b.cone(foot[0], top[0] + Vec3{0.0f, -sharp[0] - 3.0f, 0.0f}, wide[0] * 0.78f, sharp[0] * 0.5f, blue);
-    // The shelf and the keel below it.
-    b.ball(middle, Vec3{wide_x, shelf, wide_z}, ice);
-    b.ball(middle + Vec3{0.0f, -keel * 0.28f, 0.0f}, Vec3{wide_x * 0.9f, keel * 0.72f, wide_z * 0.9f}, ice);
-    for (u32 i = 0; i < peaks; ++i)
-        b.cone(foot[i], top[i], wide[i], sharp[i], ice);
-    // Snow: the same solids a block higher, where they come out of the ice.
-    const Vec3 up{0.0f, 1.3f, 0.0f};
-    snow.flags = 0;
-    b.ball(middle + up, Vec3{wide_x * 0.99f, shelf, wide_z * 0.99f}, snow);
-    for (u32 i = 0; i < peaks; ++i)
-        b.cone(foot[i] + up, top[i] + up, wide[i] - 0.3f, greatest(sharp[i] - 0.3f, 0.4f), snow);
+    for (u32 i = 0; i < body.count; ++i) {
+        if (body.flat)
+            b.cylinder(body.foot[i], body.top[i], body.wide[i], body.sharp[i], above.ice);
+        else
+            b.cone(body.foot[i], body.top[i], body.wide[i], body.sharp[i], above.ice);
+    }
+    // The keel: lobes that meet at the water line, each as wide as what stands on it and more.
+    const float turn = b.unit();
+    b.ball(middle + Vec3{0.0f, -keel * 0.36f, 0.0f}, Vec3{radius * 0.72f, keel * 0.64f, radius * 0.72f}, below.ice);
+    for (u32 i = 0; i < 4; ++i) {
+        const float deep = keel * b.range(0.3f, 0.6f), wide = radius * b.range(0.34f, 0.5f);
+        const Vec3 at =
+            middle + b.around(turn + (float(i) + b.range(-0.25f, 0.25f)) * 0.25f) * (radius * b.range(0.35f, 0.52f));
+        b.ball(at + Vec3{0.0f, 1.0f - deep, 0.0f}, Vec3{wide, deep, wide}, below.ice);
+    }
+    const u32 pieces = b.below(4);
+    for (u32 i = 0; i < pieces; ++i) {
+        const float r = b.range(2.5f, 5.5f);
+        const Vec3 at = middle + b.around(b.unit()) * (radius * b.range(0.95f, 1.2f));
+        b.ball(at, Vec3{r * b.range(0.8f, 1.3f), r * b.range(0.5f, 0.9f), r}, b.wobbly(above.ice, 1.0f));
+    }
+    // Snow: the same solids a block or two higher, where they come out of the ice.
+    const Vec3 up{0.0f, 1.6f, 0.0f};
+    for (u32 i = 0; i < body.count; ++i) {
+        const float at = body.flat ? 0.6f : 0.3f; // none low on steep sides
+        const Vec3 from = body.foot[i] + (body.top[i] - body.foot[i]) * at + up;
+        const float r = body.wide[i] + (body.sharp[i] - body.wide[i]) * at;
+        if (body.flat)
+            b.cylinder(from, body.top[i] + up, r, body.sharp[i], above.snow);
+        else
+            b.cone(from, body.top[i] + up, r, body.sharp[i], above.snow);
+    }
 }
 
 } // namespace vitrail
