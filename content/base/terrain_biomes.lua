@@ -35,11 +35,11 @@ local bands = {}
 for _, band in ipairs { { 5, "" }, { 3, "orange_" }, { 4, "red_" }, { 2, "white_" }, { 6, "" }, { 1, "orange_" }, { 5, "yellow_" }, { 3, "purple_" }, { 3, "" } } do
   for _ = 1, band[1] do bands[#bands + 1] = band[2] .. "terracotta" end
 end
--- Canyons run where Worley cells meet.
+-- Canyons run where Worley cells meet. Clay above the water is baked like the rock: gray slopes would hide the bands.
 biome("mesa", "-.+++-", [[
   e = warp(28 F3(.011), 28 F3(.011), E(.003));
   122 + 10 ss(0, .05, e) + (37.5 + 5 F4(.03)) ss(.07, .22, e) + 6 S(.025)]],
-  { clay = .8, dirt = 0 }, { { from = "rock", above = "108 + 12 F3(.004)", bands = bands } })
+  { clay = .8, dirt = 0 }, { { from = { "rock", "clay" }, above = "108 + 12 F3(.004)", bands = bands } })
 -- A lake's ice is three blocks thick here, with water below it.
 biome("frozen_wasteland", "-.++-+", "136 + 16 F(.0035)", { granite = 0, dirt = .6, snow = 1.1 }, {
   turf("grass_block[snowy=true]"),
