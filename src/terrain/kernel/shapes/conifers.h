@@ -19,7 +19,7 @@ VX_HD_FN void build_redwood(ShapeBuilder<L>& b) {
     const Vec3 waist = Vec3{0.5f, height * 0.16f, 0.5f} + lean * 0.15f;
     const Vec3 top = Vec3{0.5f, height, 0.5f} + lean;
     b.cone(foot, waist, radius * 1.45f, radius, b.paint(p::trunk));
-    b.cone(waist, top, radius, 0.5f, b.paint(p::trunk));
+    b.cone(waist, top - Vec3{0.0f, 2.5f, 0.0f}, radius, 0.5f, b.paint(p::trunk));
     const u32 roots = 4 + b.below(3);
     for (u32 i = 0; i < roots; ++i) {
         const Vec3 away = b.around(turn + (float(i) + b.range(-0.25f, 0.25f)) / float(roots));
@@ -49,7 +49,7 @@ VX_HD_FN void build_redwood(ShapeBuilder<L>& b) {
             b.dome(at + out - Vec3{0.0f, 0.7f, 0.0f}, {wide, high * 0.8f, wide}, 0.0f, b.sparse(p::leaves, 0.1f));
         }
     }
-    b.cone(top - Vec3{0.0f, 1.5f, 0.0f}, top + Vec3{0.0f, 2.6f, 0.0f}, 1.3f, 0.5f, b.paint(p::leaves));
+    b.cone(top - Vec3{0.0f, step + 1.0f, 0.0f}, top + Vec3{0.0f, 2.6f, 0.0f}, 1.7f, 0.5f, b.paint(p::leaves));
 }
 
 // Grows out of a cliff to one side and up again, under flat pads of needles.
