@@ -38,7 +38,7 @@ void fbm(bench::Context& c, bool three) {
     });
 }
 
-void worley3(bench::Context& c) {
+void cells3(bench::Context& c) {
     const auto tables = std::make_unique<TerrainTables>();
     const NoiseOctave* octave = octaves_of(*tables, NoiseKind::cellular, 1);
     const NoiseRows& rows = noise_rows(best_isa());
@@ -58,7 +58,7 @@ void register_noise_benches(bench::Suite& suite) {
               [](bench::Context& c) { fbm(c, true); });
     suite.add("noise.fbm5_2d", "M/s", "5-octave 2-D simplex samples, a column at a time, one core",
               [](bench::Context& c) { fbm(c, false); });
-    suite.add("noise.worley3", "M/s", "3-D Worley samples, F1 to F3 of 27 cells, one core", worley3);
+    suite.add("noise.worley3", "M/s", "3-D Worley samples, F1 to F3 of 27 cells, one core", cells3);
 }
 
 } // namespace vitrail
