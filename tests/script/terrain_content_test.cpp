@@ -2,13 +2,17 @@
 // every row of its reference tables.
 #include "script/content_loader.h"
 #include "terrain/compile/compile.h"
+#include "terrain/compile/shape_info.h"
 #include "world/block_state.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <map>
+#include <unistd.h>
 
 namespace vitrail {
 namespace {
@@ -518,6 +522,53 @@ TEST_F(BaseTerrain, DecoratorsAreThoseOfTheTable) {
         const auto found = there.find({"vitrail:" + biome, block});
         ASSERT_NE(found, there.end()) << biome << " " << block;
         EXPECT_FLOAT_EQ(found->second->chance, chance) << biome << " " << block;
+    }
+}
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The example of docs/terrain.md, as a content folder after the base game's: a field, an attribute, a biome, colors and
+// a feature of somebody's own.
+TEST_F(BaseTerrain, ASecondFolderAddsABiome) {
+    const std::string doc = text_of(std::filesystem::path(VITRAIL_SOURCE_DIR) / "docs" / "terrain.md");
+    const std::size_t part = doc.find("## Adding a biome");
+    ASSERT_NE(part, std::string::npos);
+    const std::size_t first = doc.find("```lua\n", part) + 7, last = doc.find("```", first);
+    ASSERT_LT(first, last);
+    const auto root = std::filesystem::temp_directory_path() / ("vitrail_terrain_" + std::to_string(getpid()));
+    std::filesystem::create_directories(root);
+    std::ofstream(root / "lagoon.lua") << doc.substr(first, last - first);
+    const std::filesystem::path roots[] = {std::filesystem::path(VITRAIL_SOURCE_DIR) / "content" / "base", root};
+    const auto both = load_content(roots);
+    std::filesystem::remove_all(root);
+    ASSERT_TRUE(both) << both.error().message;
+    const TerrainDescription& more = *both->terrain;
+    EXPECT_EQ(more.biomes.size(), d().biomes.size() + 1);
+    EXPECT_EQ(more.features.size(), d().features.size() + 1);
+    EXPECT_EQ(more.biomes.back().name, "my:lagoon");
+    EXPECT_EQ(more.biomes[8].wants, "-.++++.") << "the others do not mind the new attribute";
+    expect_partition(more.biomes, 7);
+    const auto compiled = compile_terrain(more, 1);
+    ASSERT_TRUE(compiled) << compiled.error().message;
+    EXPECT_EQ(compiled->tables->biomes, 25u);
+}
+
+TEST_F(BaseTerrain, EveryShapeIsDescribedAndUsed) {
+    const std::string doc = text_of(std::filesystem::path(VITRAIL_SOURCE_DIR) / "docs" / "terrain.md");
+    for (const ShapeInfo& shape : shape_infos()) {
+        const std::size_t at = doc.find(std::string("\n| `") + shape.name + "` |");
+        ASSERT_NE(at, std::string::npos) << shape.name;
+        const std::string row = doc.substr(at, doc.find('\n', at + 1) - at);
+        for (const ShapeNumber& number : shape.numbers)
+            if (number.name) EXPECT_THAT(row, HasSubstr(std::string("`") + number.name + "`")) << shape.name;
+        for (const char* block : shape.blocks)
+            if (block) EXPECT_THAT(row, HasSubstr(block)) << shape.name;
+        EXPECT_TRUE(std::any_of(d().features.begin(), d().features.end(), [&](const auto& f) {
+            return f.shape == shape.name;
+        })) << shape.name;
     }
 }
 
