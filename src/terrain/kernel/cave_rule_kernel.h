@@ -21,41 +21,61 @@ struct CaveDraw {
     using F = typename L::F;
     F land;
     F offset[kAttributesMost];
-    F attribute[kAttributesMost];                               // those that do not change with depth stay as they are
-    typename L::U bits;                                         // random, of the block column
+    F factor[2 * kAttributesMost];             // each attribute, and 1 - the attribute; some change with depth
+    u8 uses[kCaveBiomesMost][kAttributesMost]; // the factors of each biome's weight
+    u8 used[kCaveBiomesMost];                  // how many they are
+    typename L::U bits;                        // random, of the block column
     u32 vague_from[kAttributesMost], vague_to[kAttributesMost]; // levels between which attributes change
-    u32 possible = 0;                                           // biomes that may have weight at any level, bits
+    u32 possible = 0; // biomes that may have weight at some level, bits; others are passed over
     // Of one level, or of all up to `steady_to` where nothing changes: sums of the weights, row after row.
     i32 steady_to = -1;
     u32 steady_biomes = 0; // bits: those with weight
     bool alone = false;    // one biome a block column; `biome`
     typename L::U biome;
-    F upto[kCaveBiomesMost];
+    F upto[kCaveBiomesMost], sum;
 };
 
 namespace cave_rule_detail {
+
+// As wants_weight.
+template <class L>
+VX_HD typename L::F weight_of(const CaveDraw<L>& d, u32 biome) {
+    if (d.used[biome] == 0) return L::f(1.0f);
+    typename L::F weight = d.factor[d.uses[biome][0]];
+    for (u32 i = 1; i < d.used[biome]; ++i)
+        weight = weight * d.factor[d.uses[biome][i]];
+    return weight;
+}
 
 template <class L>
 VX_HD void find_weights(const TerrainTables& t, i32 y, CaveDraw<L>& d) {
     const typename L::F depth = d.land - float(y);
     for (u32 i = 0; i < t.cave_attributes; ++i) {
         const CaveAttributeRow& a = t.cave_attribute[i];
-        if (a.with_depth != 0.0f) d.attribute[i] = step_between<L>(a.low, a.high, depth * a.with_depth + d.offset[i]);
+        if (a.with_depth == 0.0f) continue;
+        d.factor[2 * i] = step_between<L>(a.low, a.high, depth * a.with_depth + d.offset[i]);
+        d.factor[2 * i + 1] = 1.0f - d.factor[2 * i];
     }
     typename L::F sum = L::f(0.0f);
     for (u32 b = 0; b < t.cave_biomes; ++b)
-        d.upto[b] = sum = sum + wants_weight<L>(t.cave_biome[b].wants, t.cave_attributes, d.attribute);
+        if ((d.possible >> b & 1) != 0) d.upto[b] = sum = sum + weight_of<L>(d, b);
+    d.sum = sum;
 }
 
 // As pick_cave_biome: the first whose sum exceeds the drawn share of all.
 template <class L>
 VX_HD typename L::U draw(const TerrainTables& t, i32 y, const CaveDraw<L>& d) {
-    const typename L::F sum = d.upto[t.cave_biomes - 1];
-    const typename L::F drawn = unit_of(mix_bits(d.bits + u32(y) * 0xc2b2ae3du)) * sum;
+    using M = typename L::M;
+    const typename L::F drawn = unit_of(mix_bits(d.bits + u32(y) * 0xc2b2ae3du)) * d.sum;
     typename L::U picked = L::u(0);
-    for (u32 b = 0; b + 1 < t.cave_biomes; ++b)
-        picked = picked + select(d.upto[b] > drawn, L::u(0), L::u(1));
-    return select(sum > L::f(0.0f), picked, L::u(0));
+    M passed = d.sum > L::f(0.0f);
+    for (u32 b = 0; b < t.cave_biomes; ++b) {
+        if ((d.possible >> b & 1) == 0) continue;
+        picked = select(passed, L::u(b), picked);
+        const M beyond = d.upto[b] <= drawn;
+        passed = passed & beyond;
+    }
+    return picked;
 }
 
 template <class L>
@@ -64,10 +84,13 @@ VX_HD_FN void begin(const TerrainTables& t, const GroundTile& ground, const Cave
     using F = typename L::F;
     d.land = L::load(ground.land + row.index);
     d.bits = random_bits(t.cave_pick_key, row.block_x(), row.block_z());
-    cave_attributes_at<L>(t, ground, caves, row.index, L::i(0), d.attribute);
+    F attribute[kAttributesMost];
+    cave_attributes_at<L>(t, ground, caves, row.index, L::i(0), attribute);
     for (u32 i = 0; i < t.cave_attributes; ++i) {
         const CaveAttributeRow& a = t.cave_attribute[i];
         d.offset[i] = L::load(caves.offset[i] + row.index);
+        d.factor[2 * i] = attribute[i];
+        d.factor[2 * i + 1] = 1.0f - attribute[i];
         d.vague_from[i] = 1;
         d.vague_to[i] = 0;
         if (a.with_depth == 0.0f) continue;
@@ -81,16 +104,17 @@ VX_HD_FN void begin(const TerrainTables& t, const GroundTile& ground, const Cave
         d.vague_to[i] = u32(to < 0 ? 0 : to);
     }
     for (u32 b = 0; b < t.cave_biomes; ++b) {
-        F weight = L::f(1.0f);
+        F weight = L::f(1.0f); // without what changes with depth
+        d.used[b] = 0;
         for (u32 i = 0; i < t.cave_attributes; ++i) {
-            if (t.cave_attribute[i].with_depth != 0.0f) continue;
             const i32 wants = t.cave_biome[b].wants[i];
-            if (wants > 0) weight = weight * d.attribute[i];
-            if (wants < 0) weight = weight * (1.0f - d.attribute[i]);
+            if (wants == 0) continue;
+            const u8 factor = u8(2 * i + (wants < 0 ? 1 : 0));
+            d.uses[b][d.used[b]++] = factor;
+            if (t.cave_attribute[i].with_depth == 0.0f) weight = weight * d.factor[factor];
         }
         if (L::any(weight > L::f(0.0f))) d.possible |= 1u << b;
     }
-    d.possible |= 1u; // where no biome wants the place
 }
 
 // Whether attributes change at the level y; if not, the next level where one does, or the world's end.
@@ -115,7 +139,8 @@ VX_HD_FN void find_steady(const TerrainTables& t, i32 y, i32 next, CaveDraw<L>& 
     U found = L::u(0);
     d.biome = L::u(0);
     for (u32 b = 0; b < t.cave_biomes; ++b) {
-        const auto some = wants_weight<L>(t.cave_biome[b].wants, t.cave_attributes, d.attribute) > L::f(0.0f);
+        if ((d.possible >> b & 1) == 0) continue;
+        const auto some = weight_of<L>(d, b) > L::f(0.0f);
         if (!L::any(some)) continue;
         d.steady_biomes |= 1u << b;
         found = found + select(some, L::u(1), L::u(0));
@@ -165,8 +190,8 @@ VX_HD_FN void cave_rules_row(const TerrainTables& t, const Row<L>& row, const Gr
     u32 ruled = 0; // biomes that have rules
     for (u32 r = 0; r < t.cave_rules; ++r)
         ruled |= 1u << t.cave_rule[r].biome;
-    if ((d.possible & ruled) == 0) return;
-    u32 open[kTerrainHeight / 32 + 1]; // of any lane
+    if (((d.possible | 1u) & ruled) == 0) return; // the first has what no biome wants
+    u32 open[kTerrainHeight / 32 + 1];            // of any lane
     for (i32 w = 0; w < kTerrainHeight / 32; ++w)
         open[w] = lanes_or<L>(L::load(caves.open[w] + row.index));
     open[kTerrainHeight / 32] = 0;
@@ -177,7 +202,7 @@ VX_HD_FN void cave_rules_row(const TerrainTables& t, const Row<L>& row, const Gr
         i32 next = 0;
         const bool steady = !is_vague<L>(t, d, y, next) && next >= y + kCaveRuleLevels;
         if (steady && d.steady_to != next) find_steady<L>(t, y, next, d);
-        const u32 biomes = steady ? d.steady_biomes : d.possible;
+        const u32 biomes = steady ? d.steady_biomes : d.possible | 1u;
         if ((biomes & ruled) == 0) continue;
         U drawn_biome[kCaveRuleLevels];
         u32 known = 0;
@@ -213,6 +238,17 @@ VX_HD_FN void cave_rules_row(const TerrainTables& t, const Row<L>& row, const Gr
                 const auto there = (levels >> u32(i) & 1u) != L::u(0), changes = from.has(block);
                 auto hit = there & changes;
                 if (!L::any(hit)) continue;
+                if (rule.veins != 0) {
+                    if (!veins_known)
+                        for (i32 n = 0; n < 3; ++n)
+                            vein[n] = vein_noise<L>(t, r, y / kCoarseStep + n, row, fields);
+                    veins_known = true;
+                    const F low = vein[i >> 2], high = vein[(i >> 2) + 1];
+                    const auto in_vein =
+                        absolute<L>(low + (high - low) * (float(i & 3) * 0.25f)) < L::f(rule.vein_width);
+                    hit = hit & in_vein;
+                    if (!L::any(hit)) continue;
+                }
                 if (!(steady && d.alone)) {
                     if ((known >> i & 1) == 0) {
                         if (!steady && (y + i < weighed_from || y + i >= weighed_to)) {
@@ -226,16 +262,6 @@ VX_HD_FN void cave_rules_row(const TerrainTables& t, const Row<L>& row, const Gr
                     }
                     const auto here = drawn_biome[i] == biome;
                     hit = hit & here;
-                }
-                if (rule.veins != 0) {
-                    if (!veins_known)
-                        for (i32 n = 0; n < 3; ++n)
-                            vein[n] = vein_noise<L>(t, r, y / kCoarseStep + n, row, fields);
-                    veins_known = true;
-                    const F low = vein[i >> 2], high = vein[(i >> 2) + 1];
-                    const auto in_vein =
-                        absolute<L>(low + (high - low) * (float(i & 3) * 0.25f)) < L::f(rule.vein_width);
-                    hit = hit & in_vein;
                 }
                 if (!L::any(hit)) continue;
                 if (rule.chance < 1.0f) {
