@@ -164,7 +164,8 @@ VX_HD_FN void peaks(ShapeBuilder<L>& b, Vec3 middle, float radius, Bodies& out) 
     out.flat = false;
     out.count = 4 + b.below(4);
     const float turn = b.unit(), highest = radius * b.range(0.9f, 1.4f);
-    const Vec3 lean = b.around(b.unit()) * (radius * b.range(0.05f, 0.25f));
+    const Vec3 side = b.around(b.unit());
+    const Vec3 lean = side * (radius * b.range(0.05f, 0.25f));
     for (u32 i = 0; i < out.count; ++i) {
         const float share = i == 0 ? 1.0f : b.range(0.25f, 0.75f), away = i == 0 ? 0.1f : b.range(0.3f, 0.62f);
         const Vec3 at = middle + b.around(turn + float(i) * 0.38f + b.range(-0.1f, 0.1f)) * (radius * away);
@@ -216,14 +217,15 @@ VX_HD_FN void build_iceberg(ShapeBuilder<L>& b) {
     b.ball(middle + Vec3{0.0f, -keel * 0.36f, 0.0f}, Vec3{radius * 0.72f, keel * 0.64f, radius * 0.72f}, below.ice);
     for (u32 i = 0; i < 4; ++i) {
         const float deep = keel * b.range(0.3f, 0.6f), wide = radius * b.range(0.34f, 0.5f);
-        const Vec3 at =
-            middle + b.around(turn + (float(i) + b.range(-0.25f, 0.25f)) * 0.25f) * (radius * b.range(0.35f, 0.52f));
+        const Vec3 out = b.around(turn + (float(i) + b.range(-0.25f, 0.25f)) * 0.25f);
+        const Vec3 at = middle + out * (radius * b.range(0.35f, 0.52f));
         b.ball(at + Vec3{0.0f, 1.0f - deep, 0.0f}, Vec3{wide, deep, wide}, below.ice);
     }
     const u32 pieces = b.below(4);
     for (u32 i = 0; i < pieces; ++i) {
         const float r = b.range(2.5f, 5.5f);
-        const Vec3 at = middle + b.around(b.unit()) * (radius * b.range(0.95f, 1.2f));
+        const Vec3 out = b.around(b.unit());
+        const Vec3 at = middle + out * (radius * b.range(0.95f, 1.2f));
         b.ball(at, Vec3{r * b.range(0.8f, 1.3f), r * b.range(0.5f, 0.9f), r}, b.wobbly(above.ice, 1.0f));
     }
     // Snow: the same solids a block or two higher, where they come out of the ice.
