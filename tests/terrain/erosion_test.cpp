@@ -158,6 +158,39 @@ TEST(Erosion, AsTheDoubleLoopOnNoise) {
     }
 }
 
+// A slope just below repose with holes here and there: what slides into a hole sets its neighbors sliding, a block
+// further in each pass, out of the groups and rows that were quiet before. Low land takes sums that round.
+TEST(Erosion, AsTheDoubleLoopWhereSlidesSpread) {
+    for (const float base : {3.0f, 100.0f})
+        for (const u32 layers : {1u, 3u, 8u}) {
+            auto t = small_tables(1);
+            t->loose = layers;
+            t->erosion_passes = 95 / layers;
+            for (u32 l = 0; l < layers; ++l) {
+                t->loose_layer[l].repose = .5f;
+                t->loose_layer[l].steepest = 20;
+                for (u32 b = 0; b < t->biomes; ++b)
+                    t->biome[b].loose[l] = 1;
+            }
+            std::mt19937 random(layers);
+            Lands lands({0, 0}, 2, 2);
+            for (std::size_t i = 0; i < lands.size(); ++i) {
+                const i32 x = i32(i) % lands.wide() * 16, z = i32(i) / lands.wide() * 16, last = lands.wide() * 16 - 1;
+                LandTile& tile = lands.tile(i);
+                for (i32 k = 0; k < kColumnCells; ++k) {
+                    const bool hole = random() % 700 == 0;
+                    // rises to +x and +z, to -x and +z, to -x and -z
+                    const i32 along_x = layers == 1 ? x + (k & 15) : last - x - (k & 15);
+                    const i32 along_z = layers == 8 ? last - z - (k >> 4) : z + (k >> 4);
+                    tile.height[k] = base + .34f * float(along_x) + .33f * float(along_z) - (hole ? 7.0f : 0.0f);
+                    for (u32 a = 0; a < kAttributesMost; ++a)
+                        tile.attribute[a][k] = .5f;
+                }
+            }
+            expect_as_reference(*t, lands, 2, 2);
+        }
+}
+
 TEST(Erosion, AsTheDoubleLoopWithOtherNumbersOfPassesAndLayers) {
     std::mt19937 random(4);
     for (const u32 layers : {0u, 1u, 2u, 5u, 8u})

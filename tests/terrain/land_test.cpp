@@ -125,6 +125,14 @@ TEST(Land, AsRoughAtTheEdgeOfTheWorldAsAtTheOrigin) {
     }
 }
 
+TEST(Land, TheClampTakesEverything) {
+    const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(held_between<ScalarLanes>(nan, 4, 380), 4.0f);
+    EXPECT_EQ(held_between<ScalarLanes>(-inf, 4, 380), 4.0f);
+    EXPECT_EQ(held_between<ScalarLanes>(inf, 4, 380), 380.0f);
+    EXPECT_EQ(held_between<ScalarLanes>(5.5f, 4, 380), 5.5f);
+}
+
 TEST(Land, NothingThatAProgramSaysEscapesTheRange) {
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     for (const float bad : {nan, inf, -inf, 3e38f}) {
