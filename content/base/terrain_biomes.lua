@@ -69,7 +69,10 @@ biome("crystals", "-.-+--", [[
   137 + 8 F(.02) + 60 ss(.10, .15, E(.07)) (.4 + 1.2 R(.07)) ss(.70, .74, s) + 18 ss(.35, .8, s)]],
   { calcite = .3, gravel = .15, clay = .2, dirt = 0 }, {
   { from = "ground", above = "140 + 15 F3(.008) + 300 ss(152, 146, height)", to = "vitrail:quartz_rock" },
-  { from = "ground", depth = 1, chance = .1, to = "mycelium" },
+  -- A tenth of the ground, in patches: single blocks of it would be mere noise. Clay gives way to gravel for the same reason; its
+  -- thin sheet would draw pale contour lines all over the dark ground that crystals stand out from.
+  { from = "ground", depth = 1, above = "400 ss(.60, .56, S(.045))", to = "mycelium" },
+  { from = "clay", depth = 1, to = "gravel" },
 })
 
 -- Neither.

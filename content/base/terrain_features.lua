@@ -59,7 +59,8 @@ end
 local mushroom = { blocks = { stem = "vitrail:purple_mushroom_stem[axis=y]", stem_x = "vitrail:purple_mushroom_stem[axis=x]",
   stem_z = "vitrail:purple_mushroom_stem[axis=z]", cap = "vitrail:purple_mushroom_block", gills = "vitrail:purple_mushroom_gills" } }
 feature("purple_mushroom_medium", "medium_mushroom", "purple_mushrooms", 10, 2, .5, merge(on("dirt", .3), mushroom))
-feature("purple_mushroom_large", "mushroom", "purple_mushrooms", 11, 3, .45,
+-- Cells of 18, not 11: caps of this width overlapped threefold, and what was left below them was a wall of stems.
+feature("purple_mushroom_large", "mushroom", "purple_mushrooms", 18, 3, .45,
   merge(DIRT, mushroom, { numbers = { cap_radius_least = 12, cap_radius_most = 19 } }))
 local crystal = { first = "vitrail:magenta_crystal", second = "vitrail:cyan_crystal", third = "vitrail:green_crystal" }
 feature("crystal_medium", "crystal", "crystals", 28, 6, .9, { highest_y = 179, blocks = crystal,

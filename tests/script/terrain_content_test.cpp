@@ -390,7 +390,7 @@ TEST_F(BaseTerrain, FeaturesAreThoseOfTheTable) {
         {"jungle_tree_small", "small_jungle_tree", "jungle", 10, 2, .82f, {"dirt"}, .5f},
         {"jungle_tree_tiny", "small_jungle_tree", "jungle", 6, 1, .28f, {"dirt"}, .3f},
         {"purple_mushroom_medium", "medium_mushroom", "purple_mushrooms", 10, 2, .5f, {"dirt"}, .3f},
-        {"purple_mushroom_large", "mushroom", "purple_mushrooms", 11, 3, .45f, {"dirt"}, .5f},
+        {"purple_mushroom_large", "mushroom", "purple_mushrooms", 18, 3, .45f, {"dirt"}, .5f},
         {"crystal_medium", "crystal", "crystals", 28, 6, .9f, {}, 0},
         {"crystal_large", "crystal", "crystals", 52, 10, .8f, {}, 0},
         {"palm_tropical_beach", "palm", "tropical_beach", 48, 3, .35f, {"smooth_sand"}, .3f},
