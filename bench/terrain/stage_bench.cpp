@@ -171,6 +171,59 @@ static void bench_draw(bench::Context& c) {
         });
 }
 
+// Columns here and there, ground and caves there already.
+namespace {
+struct FillPlaces {
+    static constexpr i32 kColumns = 24 * 4;
+    std::shared_ptr<TerrainGenerator> generator = TerrainGenerator::create(base_terrain(), 1).value();
+    std::vector<std::shared_ptr<const GroundTile>> ground;
+    std::vector<std::shared_ptr<const CaveTile>> caves;
+
+    static ColumnPos place(i32 i) { return {i / 4 * 511 - 6000 + i % 2, i / 4 * 307 - 4000 + i / 2 % 2}; }
+    FillPlaces() {
+        for (i32 i = 0; i < kColumns; ++i) {
+            ground.push_back(generator->ground(place(i)));
+            caves.push_back(generator->caves(place(i)));
+        }
+    }
+    void fill(i32 i, BlockTile& out) const {
+        const std::size_t k = std::size_t(i);
+        terrain_stages(best_isa()).fill(generator->tables(), place(i), *ground[k], *caves[k], out);
+    }
+};
+} // namespace
+
+static void bench_fill(bench::Context& c) {
+    const FillPlaces places;
+    auto tile = std::make_unique<BlockTile>();
+    c.measure(FillPlaces::kColumns, [&] {
+        for (i32 i = 0; i < FillPlaces::kColumns; ++i) {
+            places.fill(i, *tile);
+            bench::keep(*tile);
+        }
+    });
+}
+
+// Fresh tiles for each run: what is decorated already costs less.
+static void bench_decorate(bench::Context& c) {
+    const FillPlaces places;
+    std::vector<BlockTile> tiles(std::size_t{FillPlaces::kColumns});
+    for (i32 i = 0; i < FillPlaces::kColumns; ++i)
+        places.fill(i, tiles[std::size_t(i)]);
+    const std::vector<BlockTile> filled = tiles;
+    c.measure(
+        FillPlaces::kColumns, [&] { tiles = filled; },
+        [&] {
+            for (i32 i = 0; i < FillPlaces::kColumns; ++i) {
+                const std::size_t k = std::size_t(i);
+                terrain_stages(best_isa())
+                    .decorate(places.generator->tables(), FillPlaces::place(i), *places.ground[k], *places.caves[k],
+                              tiles[k]);
+            }
+            bench::keep(tiles[0]);
+        });
+}
+
 void register_stage_benches(bench::Suite& suite);
 void register_stage_benches(bench::Suite& suite) {
     suite.add("terrain.land", "/s", "columns, one core", bench_land);
@@ -179,6 +232,8 @@ void register_stage_benches(bench::Suite& suite) {
     suite.add("terrain.caves", "/s", "columns, one core", bench_caves);
     suite.add("terrain.features", "/s", "columns, one core", bench_features);
     suite.add("terrain.draw", "/s", "columns, one core", bench_draw);
+    suite.add("terrain.fill", "/s", "columns, one core", bench_fill);
+    suite.add("terrain.decorate", "/s", "columns, one core", bench_decorate);
 }
 
 } // namespace vitrail
