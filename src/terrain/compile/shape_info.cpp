@@ -88,8 +88,8 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
                             {p::pine::lean, {"lean", 0.35f, 0, 0.6f}}},
                            {VITRAIL_WOOD(pine)}));
     add(Shape::shrub, shape("shrub", -1, 6, 6,
-                            {{p::shrub::radius_least, {"radius_least", 1.5f, 1, 3}},
-                             {p::shrub::radius_most, {"radius_most", 2.6f, 1, 3}}},
+                            {{p::shrub::radius_least, {"radius_least", 1.5f, 1.2f, 3}},
+                             {p::shrub::radius_most, {"radius_most", 2.6f, 1.2f, 3}}},
                             {{p::shrub::trunk, "trunk"}, {p::shrub::leaves, "leaves"}}));
     add(Shape::rafflesia, shape("rafflesia", -3, 26, 20,
                                 {{p::rafflesia::stem_least, {"stem_least", 3, 1, 12}},

@@ -90,7 +90,7 @@ VX_HD_FN void build_shrub(ShapeBuilder<L>& b) {
     const float radius = b.range(b.number(p::radius_least), b.number(p::radius_most));
     const Vec3 foot{0.5f, 0.0f, 0.5f};
     b.cone(foot, foot + Vec3{0.0f, radius * 0.3f, 0.0f}, 0.5f, 0.5f, b.paint(p::trunk));
-    b.ball(foot + Vec3{0.0f, radius * 0.45f, 0.0f}, {radius, radius * 0.85f, radius}, b.sparse(p::leaves, 0.05f));
+    b.ball(foot + Vec3{0.0f, radius * 0.45f, 0.0f}, {radius, radius * 0.85f, radius}, b.paint(p::leaves));
     const u32 more = b.below(3);
     for (u32 i = 0; i < more; ++i) {
         const Vec3 away = b.around(b.unit());
