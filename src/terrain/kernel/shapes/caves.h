@@ -148,7 +148,7 @@ VX_HD_FN void build_fungus(ShapeBuilder<L>& b) {
     const u32 form = b.below(3);
     if (form == 0) { // a bell with a ragged hem
         b.ball(top + Vec3{0.0f, -0.6f, 0.0f}, 0.75f, light);
-        b.dome(top + Vec3{0.0f, -r * 0.35f, 0.0f}, Vec3{r, r * 1.15f, r}, 1.3f, b.wobbly(cap, 0.3f));
+        b.dome(top + Vec3{0.0f, -r * 0.35f, 0.0f}, Vec3{r, r * 1.15f, r}, 1.3f, cap);
         b.cylinder(top + Vec3{0.0f, -r * 0.35f - 1.3f, 0.0f}, top + Vec3{0.0f, -r * 0.35f + 0.2f, 0.0f}, r * 0.98f,
                    r * 0.98f, rag);
         return;
@@ -158,13 +158,13 @@ VX_HD_FN void build_fungus(ShapeBuilder<L>& b) {
         for (u32 i = 0; i < tiers; ++i) {
             const float share = 1.0f - float(i) * 0.3f, down = (float(tiers - 1 - i)) * (1.2f + r * 0.45f);
             b.dome(top + Vec3{0.0f, -down, 0.0f}, Vec3{r * share + 0.3f, r * 0.4f * share + 0.9f, r * share + 0.3f},
-                   0.0f, b.wobbly(cap, 0.35f));
+                   0.0f, cap);
         }
         return;
     }
     // A wide hat; lights hang below its edge.
     const float wide = r * 1.25f;
-    b.dome(top + Vec3{0.0f, -0.4f, 0.0f}, Vec3{wide, r * 0.45f + 1.0f, wide}, 0.0f, b.wobbly(cap, 0.4f));
+    b.dome(top + Vec3{0.0f, -0.4f, 0.0f}, Vec3{wide, r * 0.45f + 1.0f, wide}, 0.0f, cap);
     const u32 ends = 3 + b.below(4);
     const float turn = b.unit();
     for (u32 i = 0; i < ends; ++i) {
