@@ -65,8 +65,8 @@ VX_HD_FN void build_medium_mushroom(ShapeBuilder<L>& b) {
     const Vec3 top = Vec3{0.5f, tall, 0.5f} + back * b.range(0.0f, 2.0f);
     const float rise = radius * b.range(0.55f, 1.0f);
     const float thick = 0.72f + radius * 0.06f;
-    b.spline(foot, Vec3{0.5f, tall * 0.5f, 0.5f} + bend, top + Vec3{0.0f, rise - 1.2f, 0.0f}, thick * 1.4f,
-             thick * 0.9f, 3, b.paint(p::stem));
+    b.log_spline(foot, Vec3{0.5f, tall * 0.5f, 0.5f} + bend, top + Vec3{0.0f, rise - 1.2f, 0.0f}, thick * 1.4f,
+                 thick * 0.9f, 3, p::stem);
     build_mushroom_cap(b, top, radius, rise, 1.5f, 4);
 }
 
