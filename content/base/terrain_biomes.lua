@@ -71,7 +71,7 @@ biome("crystals", "-.-+--", [[
   { from = "ground", above = "140 + 15 F3(.008) + 300 ss(152, 146, height)", to = "vitrail:quartz_rock" },
   -- A tenth of the ground, in patches: single blocks of it would be mere noise. Clay gives way to gravel for the same reason; its
   -- thin sheet would draw pale contour lines all over the dark ground that crystals stand out from.
-  { from = "ground", depth = 1, above = "400 ss(.60, .56, S(.045))", to = "mycelium" },
+  { from = "ground", depth = 1, above = "400 ss(.68, .64, S(.045))", to = "mycelium" },
   { from = "clay", depth = 1, to = "gravel" },
 })
 

@@ -3,7 +3,7 @@
 define_cave_biome("vitrail:none", { wants = "-..." })
 
 define_cave_biome("vitrail:crystal_caves", { wants = "+-+.", rules = {
-  { place = "rock", from = "rock", to = "vitrail:quartz_rock", vein = "F3(.03)", vein_width = .035 },
+  { place = "rock", from = "rock", to = "vitrail:quartz_rock", vein = "F2(.03)", vein_width = .035 },
   { place = "rock", from = "stone", to = "cobblestone", chance = .5 },
   { place = "rock", from = "deepslate", to = "cobbled_deepslate", chance = .4 },
 } })
