@@ -6,13 +6,23 @@
 
 namespace vitrail {
 
+struct LanePlaces {
+    float x[32], z[32];
+};
+inline constexpr LanePlaces kLanePlaces = [] {
+    LanePlaces out{};
+    for (i32 l = 0; l < 32; ++l) {
+        out.x[l] = float(l & 15);
+        out.z[l] = float(l >> 4);
+    }
+    return out;
+}();
+
 // Places of the lanes: 16 of row z, or of rows z and z + 1.
 template <class L>
-void lane_places(i32 z, typename L::F& dx, typename L::F& dz) {
-    for (i32 l = 0; l < L::kWidth; ++l) {
-        dx[l] = float(l & 15);
-        dz[l] = float(z + (l >> 4));
-    }
+VX_HD void lane_places(i32 z, typename L::F& dx, typename L::F& dz) {
+    dx = L::load(kLanePlaces.x);
+    dz = L::load(kLanePlaces.z) + float(z);
 }
 
 template <class L>
