@@ -1,4 +1,5 @@
 // From a tile of raw blocks to chunks with palettes, biomes and heights.
+#include "terrain/cpu/pack_stage.h"
 #include "terrain/generator.h"
 
 #include <cstring>
@@ -7,56 +8,62 @@ namespace vitrail {
 
 namespace {
 
-// Blocks of one section in rising order, states doubled under two names joined.
-BlockStorage pack_section(const Block* blocks, const TerrainPalette& palette) {
-    // Sections of one block are frequent: compare with itself shifted by one cell.
-    if (std::memcmp(blocks, blocks + 1, kChunkVolume - 1) == 0) return BlockStorage(palette.blocks[blocks[0]]);
-    u8 present[kBlocksMost] = {};
-    for (i32 i = 0; i < kChunkVolume; ++i)
-        present[blocks[i]] = 1;
-    u8 slot[kBlocksMost];
-    std::vector<StateId> states;
+// By block, the first one that stands for the same state: content may give one state two texts.
+void find_same(const TerrainPalette& palette, Block* same) {
     for (u32 b = 0; b < palette.blocks.size() && b < kBlocksMost; ++b) {
-        if (!present[b]) continue;
-        u32 s = 0;
-        while (s < states.size() && states[s] != palette.blocks[b])
-            ++s;
-        if (s == states.size()) states.push_back(palette.blocks[b]);
-        slot[b] = u8(s);
+        u32 first = 0;
+        while (palette.blocks[first] != palette.blocks[b]) ++first;
+        same[b] = Block(first);
     }
-    const u32 bits = bits_for_palette(states.size());
-    if (bits == 0) return BlockStorage(states[0]);
-    std::vector<u64> words(std::size_t(bits) * 64);
-    const u32 cells = 64 / bits; // a word
-    const Block* at = blocks;
-    for (u64& word : words) {
-        u64 w = 0;
-        for (u32 i = 0; i < cells; ++i)
-            w |= u64(slot[at[i]]) << (i * bits);
-        word = w;
-        at += cells;
-    }
-    return BlockStorage::from_packed(std::move(states), std::move(words));
+}
+
+BlockStorage pack_section(const TerrainStages& stages, const Block* blocks, const Block* same, const TerrainPalette& palette) {
+    PackedSection packed;
+    stages.pack(blocks, same, packed);
+    if (packed.bits == 0) return BlockStorage(palette.blocks[packed.palette[0]]);
+    std::vector<StateId> states(packed.count);
+    for (u32 i = 0; i < packed.count; ++i) states[i] = palette.blocks[packed.palette[i]];
+    return BlockStorage::from_packed(std::move(states), std::vector<u64>(packed.words, packed.words + packed.bits * 64));
+}
+
+// The y above each block column's highest block that takes light, from the top down, eight columns of air at a time.
+void find_heights(const BlockTile& tile, const TerrainPalette& palette, std::array<i32, 256>& heights) {
+    heights.fill(kTerrainMinY);
+    u8 wanted[32];
+    std::memset(wanted, 255, sizeof wanted);
+    i32 open = 32;
+    for (i32 y = tile.top - 1; y >= 0 && open > 0; --y)
+        for (i32 group = 0; group < 32; ++group) {
+            if (wanted[group] == 0) continue;
+            const Block* blocks = tile.block + (y << 8) + group * 8;
+            u64 all;
+            std::memcpy(&all, blocks, sizeof all);
+            if (all == 0) continue;
+            for (i32 i = 0; i < 8; ++i)
+                if ((wanted[group] >> i & 1) && palette.takes_light[blocks[i]]) {
+                    heights[std::size_t(group * 8 + i)] = kTerrainMinY + y + 1;
+                    wanted[group] = u8(wanted[group] & ~(1u << i));
+                }
+            open -= wanted[group] == 0;
+        }
 }
 
 } // namespace
 
 GeneratedColumn pack_column(const BlockTile& tile, const BiomeTile& biomes, const TerrainPalette& palette) {
+    const TerrainStages& stages = terrain_stages(best_isa());
+    Block same[kBlocksMost] = {};
+    find_same(palette, same);
     GeneratedColumn out;
     out.chunks.resize(kTerrainSections);
     for (i32 s = 0; s < kTerrainSections; ++s) {
         Chunk& chunk = out.chunks[std::size_t(s)];
         chunk.blocks = s * kChunkSize >= tile.top ? BlockStorage(palette.blocks[kAir])
-                                                  : pack_section(tile.block + s * kChunkVolume, palette);
+                                                  : pack_section(stages, tile.block + s * kChunkVolume, same, palette);
         for (i32 cell = 0; cell < 64; ++cell)
             chunk.biomes.cells[std::size_t(cell)] = palette.biomes[biomes.biome[s * 64 + cell]];
     }
-    for (i32 i = 0; i < kColumnCells; ++i) {
-        i32 y = tile.top;
-        while (y > 0 && !palette.takes_light[tile.block[(y - 1) << 8 | i]])
-            --y;
-        out.heights[std::size_t(i)] = kTerrainMinY + y;
-    }
+    find_heights(tile, palette, out.heights);
     return out;
 }
 

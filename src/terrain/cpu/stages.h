@@ -5,6 +5,8 @@
 
 namespace vitrail {
 
+struct PackedSection; // cpu/pack_stage.h
+
 enum class Isa : u8 { portable, avx2, avx512 };
 
 struct TerrainStages {
@@ -24,6 +26,8 @@ struct TerrainStages {
     // features: of the 7 x 7 columns around, row by row (-z first, then -x).
     void (*draw)(const TerrainTables&, ColumnPos at, const FeatureTile* const features[49], BlockTile& blocks) = nullptr;
     void (*decorate)(const TerrainTables&, ColumnPos at, const GroundTile&, const CaveTile&, BlockTile& blocks) = nullptr;
+    // 16^3 blocks to a palette; same: by block, the first block that stands for the same state.
+    void (*pack)(const Block* blocks, const Block* same, PackedSection& out) = nullptr;
     void (*biomes)(const TerrainTables&, const GroundTile&, const CaveTile&, BiomeTile& out) = nullptr;
 };
 

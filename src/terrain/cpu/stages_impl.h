@@ -9,6 +9,7 @@
 #include "terrain/cpu/fill_stage.h"
 #include "terrain/cpu/ground_stage.h"
 #include "terrain/cpu/land_stage.h"
+#include "terrain/cpu/pack_stage.h"
 #include "terrain/cpu/stages.h"
 
 namespace vitrail {
@@ -16,8 +17,19 @@ namespace vitrail {
 template <int I>
 TerrainStages make_stages() {
     using L = WideLanes<I>;
-    return {Isa(I),         &land_stage<L>, &ground_stage<L>,      &lattice_stage<L>, &caves_stage<L>,
-            &features_stage, &fill_stage<L>, &draw_stage<L>, &decorate_stage<L>, &biomes_stage<L>};
+    TerrainStages s;
+    s.isa = Isa(I);
+    s.land = &land_stage<L>;
+    s.ground = &ground_stage<L>;
+    s.lattice = &lattice_stage<L>;
+    s.caves = &caves_stage<L>;
+    s.features = &features_stage;
+    s.fill = &fill_stage<L>;
+    s.draw = &draw_stage<L>;
+    s.decorate = &decorate_stage<L>;
+    s.biomes = &biomes_stage<L>;
+    s.pack = &pack_stage<L>;
+    return s;
 }
 
 } // namespace vitrail
