@@ -226,6 +226,41 @@ TEST(Session, AClientThatDoesNotReadIsDropped) {
     EXPECT_TRUE(play.world().sessions.empty());
 }
 
+// Of a world whose generator is gone nothing may be made anew, nor may it be lost.
+TEST(Session, AWorldOfAnUnknownGeneratorIsRefusedAndLeftAsItIs) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("vitrail-old-" + std::to_string(::getpid()));
+    std::filesystem::remove_all(folder);
+    server::ServerOptions options;
+    options.folder = folder.string(), options.seed = 7, options.threads = 0;
+    {
+        auto server = server::Server::open(options, base_content());
+        ASSERT_TRUE(server) << server.error().message;
+        EXPECT_EQ((*server)->world().dimensions.at(DimensionId::overworld).dimension.info().max_y, kTerrainMaxY);
+        (*server)->world().level.generator = "hills";
+        ASSERT_TRUE((*server)->stop());
+    }
+    for (const bool read_only : {false, true}) {
+        options.read_only = read_only;
+        const auto refused = server::Server::open(options, base_content());
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+        EXPECT_NE(refused.error().message.find("'hills'"), std::string::npos) << refused.error().message;
+    }
+    {
+        auto records = WorldRecords::open(folder.string(), base_content().registry);
+        ASSERT_TRUE(records);
+        auto level = (*records)->load_level();
+        ASSERT_TRUE(level && *level);
+        EXPECT_EQ((*level)->generator, "hills");
+        EXPECT_EQ((*level)->seed, 7u);
+    }
+    std::filesystem::remove_all(folder);
+    options.read_only = false, options.generator = "hills"; // nor is a new one made
+    EXPECT_FALSE(server::Server::open(options, base_content()));
+    std::filesystem::remove_all(folder);
+}
+
 // A process that is killed the moment an edit is told to be kept.
 TEST(Session, WhatWasToldToBeKeptSurvivesAKilledProcess) {
     for (int round = 0; round < 3; ++round) {
