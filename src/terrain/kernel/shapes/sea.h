@@ -147,7 +147,7 @@ VX_HD_FN void tables(ShapeBuilder<L>& b, Vec3 middle, float radius, Bodies& out)
     const Vec3 lean = b.around(b.unit());
     for (u32 i = 0; i < out.count; ++i) {
         const float away = i == 0 ? b.range(0.0f, 0.15f) : b.range(0.35f, 0.55f);
-        const float high = i == 0 ? radius * b.range(0.4f, 0.75f) : radius * b.range(0.15f, 0.45f);
+        const float high = i == 0 ? radius * b.range(0.5f, 0.95f) : radius * b.range(0.2f, 0.55f);
         const Vec3 axis = Vec3{0.0f, 1.0f, 0.0f} + lean * (slope * b.range(0.4f, 1.0f));
         const Vec3 at =
             middle + b.around(turn + (float(i) + b.range(-0.2f, 0.2f)) / float(out.count)) * (radius * away);
@@ -225,7 +225,7 @@ VX_HD_FN void build_iceberg(ShapeBuilder<L>& b) {
     for (u32 i = 0; i < pieces; ++i) {
         const float r = b.range(2.5f, 5.5f);
         const Vec3 out = b.around(b.unit());
-        const Vec3 at = middle + out * (radius * b.range(0.95f, 1.2f));
+        const Vec3 at = middle + out * (radius * b.range(0.95f, 1.2f)) - Vec3{0.0f, r * 0.35f, 0.0f};
         b.ball(at, Vec3{r * b.range(0.8f, 1.3f), r * b.range(0.5f, 0.9f), r}, b.wobbly(above.ice, 1.0f));
     }
     // Snow: the same solids a block or two higher, where they come out of the ice.
