@@ -49,6 +49,7 @@ std::vector<double> biome_shares(const TerrainTables& t, const GroundTile& g, i3
 struct Bound {
     double begin;
     Block block;
+    bool loose = false;
 };
 
 // Layers of one block column bottom up, in double precision.
@@ -83,7 +84,7 @@ std::vector<Bound> layers_of(const TerrainTables& t, const GroundTile& g, Column
         y += thick[s];
     }
     for (u32 l = 0; l < t.loose; ++l) {
-        out.push_back({y, t.loose_layer[l].block});
+        out.push_back({y, t.loose_layer[l].block, true});
         y += double(g.loose[l][i]);
     }
     return out;
@@ -122,15 +123,19 @@ TEST_F(FillTest, LayersWaterAndCavesLieWhereTheyShould) {
         for (i32 i = 0; i < kColumnCells; ++i) {
             const std::vector<Bound> layers = layers_of(t, *ground, place, i);
             const i32 top = ceil_level(double(ground->top[i]));
+            const u32 x = (u32(place.x) << 4) + u32(i & 15), z = (u32(place.z) << 4) + u32(i >> 4);
+            const double within = double(unit_of(random_next(random_bits(t.pick_key, x, z), 0)));
             for (i32 y = 0; y < kTerrainHeight; ++y) {
                 const Block got = at(i, y);
                 if (got != kAir) highest = std::max(highest, y + 1);
                 Block want = y < kTerrainSeaLevel ? kWater : kAir;
                 bool vague = false;
                 if (y < top) {
+                    const double in_ground = std::min(1.0, double(ground->top[i]) - y);
                     for (const Bound& b : layers) {
-                        if (b.begin <= double(y)) want = b.block;
-                        vague |= std::abs(b.begin - double(y)) < 1e-3;
+                        const double asked = b.loose ? y + within * in_ground : y;
+                        if (b.begin <= asked) want = b.block;
+                        vague |= std::abs(b.begin - asked) < 1e-3;
                     }
                     ++layered;
                 }

@@ -3,9 +3,10 @@
 // the others leave up to where the hung strata begin, which hang under the loose layers; where the others leave
 // nothing, the upper ones are cut. Loose layers are what erosion left.
 //
-// A block belongs to the layer that covers its floor, height y: it is of layer l where begin(l) <= y < begin(l + 1). So
-// a layer thinner than a block shows in as many block columns as it is thick, and ground ends where GroundTile::top
-// says.
+// A block of strata belongs to the layer that covers its floor, height y: it is of layer l where begin(l) <= y <
+// begin(l + 1). Ground ends where GroundTile::top says. Loose layers are asked at a height within the block that is
+// drawn once for each block column (in the topmost block: within its part that is ground), so that a layer thinner than
+// a block is strewn over the land and does not follow its contour lines.
 #pragma once
 
 #include "terrain/kernel/biome_kernel.h"
@@ -91,10 +92,19 @@ VX_HD_FN LayerStack<L> layer_stack(const TerrainTables& t, const GroundTile& gro
     if (!remainder) add(t.remainder != kAir ? t.remainder : t.deepest_stone, at);
     for (u32 s = 0; s < t.strata; ++s)
         if (t.stratum[s].hung && L::any(thick[s] > zero)) add(t.stratum[s].block, hung_from[s]);
-    for (u32 l = 0; l < t.loose; ++l)
-        if (L::any((l + 1 < t.loose ? loose_from[l + 1] : top) > loose_from[l]))
-            add(t.loose_layer[l].block, loose_from[l]);
-    out.begin[out.count] = block_above<L>(top);
+    const typename L::I end = block_above<L>(top);
+    const F within = unit_of(random_next(random_bits(t.pick_key, row.block_x(), row.block_z()), 0));
+    const F last = to_float(end - 1), asked = last + within * (top - last); // of the topmost block
+    for (u32 l = 0; l < t.loose; ++l) {
+        const F next = l + 1 < t.loose ? loose_from[l + 1] : top;
+        if (!L::any(next > loose_from[l])) continue;
+        add(t.loose_layer[l].block, loose_from[l] - within);
+        typename L::I& begin = out.begin[out.count - 1];
+        const auto reached = asked >= loose_from[l], some = loose_from[l] < top;
+        const auto topmost = begin >= end - 1;
+        begin = select(topmost, select(reached & some, end - 1, end), begin);
+    }
+    out.begin[out.count] = end;
     return out;
 }
 
