@@ -211,6 +211,8 @@ TEST_P(DrawShape, StaysWithinItsReach) {
         World w(place_of(shape));
         w.add(shape, 16, 0, 1);
         FeatureRow& row = w.t->feature[0];
+        if (w.ground->top[0] < float(kTerrainSeaLevel)) // from deep to shallow seas
+            std::fill_n(w.ground->top, kColumnCells, round % 3 == 0 ? 45.0f : round % 3 == 1 ? 90.0f : 121.0f);
         for (u32 i = 0; i < kFeatureNumbers; ++i) {
             const ShapeNumber& n = info.numbers[i];
             if (!n.name) continue;

@@ -53,7 +53,7 @@ constexpr std::array<ShapeInfo, u32(Shape::count)> make_infos() {
         shape("kelp", 0, 20, 1,
               {{p::kelp::height_least, {"height_least", 4, 1, 20}}, {p::kelp::height_most, {"height_most", 20, 1, 20}}},
               {{p::kelp::stalk, "stalk"}, {p::kelp::tip, "tip"}}));
-    add(Shape::iceberg, shape("iceberg", -64, 110, 47,
+    add(Shape::iceberg, shape("iceberg", -64, 140, 47,
                               {{p::iceberg::radius_least, {"radius_least", 20, 6, 32}},
                                {p::iceberg::radius_most, {"radius_most", 32, 6, 32}}},
                               {{p::iceberg::ice, "ice"}, {p::iceberg::core, "core"}, {p::iceberg::snow, "snow"}}));
