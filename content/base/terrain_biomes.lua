@@ -76,7 +76,11 @@ biome("crystals", "-.-+--", [[
 })
 
 -- Neither.
-biome("oasis", "-.--++", "132 + 9 F(.012)", { sandstone = 1, clay = .4, dirt = .6, sand = .4 }, { JUNGLE_GRASS })
+-- Sand lies over the dirt; where water is near the green comes through.
+biome("oasis", "-.--++", "132 + 9 F(.012)", { sandstone = 1, clay = .4, dirt = .6, sand = .4 }, {
+  JUNGLE_GRASS,
+  { from = "sand", depth = 1, below = "133 + 5 F3(.03)", to = "vitrail:jungle_grass_block" },
+})
 biome("desert", "-.--+-", "136 + 6 F(.011)", { sandstone = 1, dirt = 0, sand = 1 })
 biome("plains", "-.---+", "144 + 8 F(.008)", {}, { GRASS })
 -- F4 where five octaves would be finer than two blocks.

@@ -32,10 +32,10 @@ local birch = { numbers = { tall_share = .08, yellow_share = .1, orange_share = 
   leaves = "birch_leaves[persistent=true]", leaves_yellow = "vitrail:yellow_birch_leaves[persistent=true]", leaves_orange = "vitrail:orange_birch_leaves[persistent=true]" } }
 feature("birch_lush_birch_forest", "birch", "lush_birch_forest", 9, 2, .7, merge(DIRT, birch))
 feature("birch_swamp", "birch", "swamp", 16, 2, .15, merge(on({ "dirt", "mud" }, .5), birch))
--- Pines cling to the bare sandstone of pillars too; shrubs want some soil.
+-- Pines and shrubs cling to the bare sandstone of pillars.
 feature("pine", "pine", "tianzi_mountains", 7, 1, .8, { blocks = wood("spruce_log", "vitrail:pine_leaves") })
-feature("shrub", "shrub", "tianzi_mountains", 6, 1, .8, on("dirt", .3,
-  { blocks = { trunk = "spruce_log[axis=y]", leaves = "vitrail:shrub_leaves[persistent=true]" } }))
+feature("shrub", "shrub", "tianzi_mountains", 6, 1, .8,
+  { blocks = { trunk = "spruce_log[axis=y]", leaves = "vitrail:shrub_leaves[persistent=true]" } })
 local jungle = { blocks = wood("jungle_log", "jungle_leaves") }
 feature("rafflesia", "rafflesia", "jungle", 54, 6, .5, merge(DIRT, { blocks = { stem = "vitrail:rafflesia_stem", petal = "vitrail:rafflesia_petal",
   core = "vitrail:rafflesia_core", leaves = "vitrail:rafflesia_leaves[persistent=true]" } }))

@@ -384,7 +384,7 @@ TEST_F(BaseTerrain, FeaturesAreThoseOfTheTable) {
         {"birch_lush_birch_forest", "birch", "lush_birch_forest", 9, 2, .7f, {"dirt"}, .5f},
         {"birch_swamp", "birch", "swamp", 16, 2, .15f, {"dirt", "mud"}, .5f},
         {"pine", "pine", "tianzi_mountains", 7, 1, .8f, {}, 0},
-        {"shrub", "shrub", "tianzi_mountains", 6, 1, .8f, {"dirt"}, .3f},
+        {"shrub", "shrub", "tianzi_mountains", 6, 1, .8f, {}, 0},
         {"rafflesia", "rafflesia", "jungle", 54, 6, .5f, {"dirt"}, .5f},
         {"jungle_tree_large", "jungle_tree", "jungle", 28, 3, .7f, {"dirt"}, .5f},
         {"jungle_tree_small", "small_jungle_tree", "jungle", 10, 2, .82f, {"dirt"}, .5f},
