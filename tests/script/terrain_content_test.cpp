@@ -516,7 +516,9 @@ TEST_F(BaseTerrain, DecoratorsAreThoseOfTheTable) {
         there[{decorator.biome, block}] = &decorator;
         // What is two high has both halves, and only that.
         EXPECT_EQ(decorator.block.find("half=lower") != std::string::npos, !decorator.upper.empty()) << decorator.block;
-        if (block.ends_with("_coral")) EXPECT_NE(decorator.block.find("waterlogged=true"), std::string::npos);
+        if (block.ends_with("_coral")) {
+            EXPECT_NE(decorator.block.find("waterlogged=true"), std::string::npos);
+        }
     }
     for (const auto& [biome, block, chance] : rows) {
         const auto found = there.find({"vitrail:" + biome, block});
@@ -563,9 +565,13 @@ TEST_F(BaseTerrain, EveryShapeIsDescribedAndUsed) {
         ASSERT_NE(at, std::string::npos) << shape.name;
         const std::string row = doc.substr(at, doc.find('\n', at + 1) - at);
         for (const ShapeNumber& number : shape.numbers)
-            if (number.name) EXPECT_THAT(row, HasSubstr(std::string("`") + number.name + "`")) << shape.name;
+            if (number.name) {
+                EXPECT_THAT(row, HasSubstr(std::string("`") + number.name + "`")) << shape.name;
+            }
         for (const char* block : shape.blocks)
-            if (block) EXPECT_THAT(row, HasSubstr(block)) << shape.name;
+            if (block) {
+                EXPECT_THAT(row, HasSubstr(block)) << shape.name;
+            }
         EXPECT_TRUE(std::any_of(d().features.begin(), d().features.end(), [&](const auto& f) {
             return f.shape == shape.name;
         })) << shape.name;
