@@ -58,9 +58,12 @@ static void bench_import(bench::Context& c, const char* version, double columns,
     fs::remove_all(folder);
 }
 
+void register_land_benches(bench::Suite& suite);
+
 } // namespace vitrail
 
 void register_pipeline_benches(vitrail::bench::Suite& suite) {
+    vitrail::register_land_benches(suite);
     using vitrail::bench::Context;
     // Only columns that hold blocks count: half-made ones without any are left out of worlds.
     suite.add("import.anvil", "/s", "chunk columns, 1.14.4 region (299, all full) into a fresh store, all cores",

@@ -94,12 +94,20 @@ MapColor color_of(float hue, float saturation, float lightness) {
 std::vector<MapPalette::BiomeLook> biome_looks(const Content& content, const TerrainGenerator& generator) {
     const TerrainTables& tables = generator.tables();
     std::vector<MapPalette::BiomeLook> out;
-    u32 sea = 0, land = 0;
+    const auto& attributes = content.terrain->attributes;
+    const auto beach = std::find_if(attributes.begin(), attributes.end(), [](const auto& a) { return a.name == "beach"; });
+    u32 sea = 0, shore = 0, land = 0;
     for (u32 b = 0; b < tables.biomes; ++b) {
         MapPalette::BiomeLook look;
         const BiomeDef& def = content.registry->biome_named(generator.biome_names()[b]);
         look.tints = {linear_of(def.grass), linear_of(def.foliage), linear_of(def.water)};
         if (tables.ocean >= 0 && tables.biome[b].wants[tables.ocean] > 0) {
+            if (beach != attributes.end() && tables.biome[b].wants[beach - attributes.begin()] > 0) {
+                look.color = color_of(0.12f + 0.02f * float(shore), 0.45f, 0.60f + 0.08f * float(shore));
+                ++shore;
+                out.push_back(look);
+                continue;
+            }
             look.color = color_of(0.50f + 0.025f * float(sea), 0.6f, 0.42f + 0.12f * float(sea % 3));
             ++sea;
         } else {

@@ -18,12 +18,23 @@ std::string weights_text(const std::map<std::string, float>& weights) {
     return out;
 }
 
+// Expressions may be written over several lines.
+std::string in_one_line(const std::string& text) {
+    std::string out;
+    for (const char c : text)
+        if (c != ' ' && c != '\n' && c != '\t')
+            out += c;
+        else if (!out.empty() && out.back() != ' ')
+            out += ' ';
+    return out;
+}
+
 std::string rule_text(const TerrainDescription::SurfaceRule& rule) {
     std::string out = fmt::format("{} becomes {}", fmt::join(rule.from, ", "),
                                   rule.bands.empty() ? rule.to : fmt::format("{} bands", rule.bands.size()));
     if (rule.depth > 0) out += fmt::format(", the top {}", rule.depth);
-    if (!rule.above.empty()) out += fmt::format(", above {}", rule.above);
-    if (!rule.below.empty()) out += fmt::format(", below {}", rule.below);
+    if (!rule.above.empty()) out += fmt::format(", above {}", in_one_line(rule.above));
+    if (!rule.below.empty()) out += fmt::format(", below {}", in_one_line(rule.below));
     if (rule.chance < 1) out += fmt::format(", chance {:g}", rule.chance);
     return out;
 }
@@ -53,7 +64,7 @@ void list_surface(const TerrainDescription& d) {
                        l.thickness, l.amplitude, l.frequency);
     }
     for (const auto& b : d.biomes) {
-        fmt::print("biome {}: wants {}, height {}", b.name, b.wants, b.height);
+        fmt::print("biome {}: wants {}, height {}", b.name, b.wants, in_one_line(b.height));
         if (!b.materials.empty()) fmt::print("; {}", weights_text(b.materials));
         fmt::print("\n");
         for (const auto& rule : b.rules)
@@ -69,7 +80,7 @@ void list_caves(const TerrainDescription& d) {
         for (const auto& r : b.rules) {
             fmt::print("cave rule {}: {}, {} becomes {}, chance {:g}", b.name, r.place, fmt::join(r.from, ", "), r.to,
                        r.chance);
-            if (!r.vein.empty()) fmt::print(", veins of {}", r.vein);
+            if (!r.vein.empty()) fmt::print(", veins of {}", in_one_line(r.vein));
             fmt::print("\n");
         }
     }

@@ -334,7 +334,8 @@ struct GenerationScheduler::Impl : std::enable_shared_from_this<Impl> {
         if (stopped || jobs >= options.jobs_most) return job;
         fill_budget();
         if (has_budget() && allowance_ns <= 0) return job;
-        while (ready.empty() && !queue.empty() && begun < options.columns_most)
+        // One that is more urgent than all that waits, as after a turn, is not to wait behind it.
+        while (!queue.empty() && begun < options.columns_most && (ready.empty() || queue.back().first < ready.begin()->first))
             begin_column();
         while (!ready.empty()) {
             const auto first = ready.begin();

@@ -1,0 +1,2 @@
+# base_land.h reads content/base.
+target_link_libraries(bench_pipeline PUBLIC vitrail_script)
