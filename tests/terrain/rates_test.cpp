@@ -121,7 +121,9 @@ void expect_loose(const Rates& rates) {
             const std::string where = layer.name + " in " + rates.regions[region].name;
             EXPECT_LE(row.left, row.laid * 1.001) << where;
             EXPECT_GE(row.left, row.laid * .6) << where;
-            if (row.gentle_laid > 500) EXPECT_NEAR(row.gentle_left / row.gentle_laid, 1, .02) << where;
+            if (row.gentle_laid > 500) {
+                EXPECT_NEAR(row.gentle_left / row.gentle_laid, 1, .02) << where;
+            }
         }
 }
 

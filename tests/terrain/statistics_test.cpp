@@ -81,10 +81,11 @@ void biomes_occur(u64 seeds, i32 spacing) {
         if (printing()) fmt::print("  {:32} {:.4f} {:.4f}\n", name, total[b].mean(), least[b]);
         EXPECT_GT(total[b].mean(), .003) << name; // the rarest
         EXPECT_LT(total[b].mean(), .20) << name;  // the most common
-        if (seeds >= 10)
+        if (seeds >= 10) {
             for (size_t q = 0; q < 4; ++q) // Student's t of 19 degrees: 96 numbers beyond 6 once in a thousand times
                 EXPECT_LT(std::abs(by_quadrant[b][q].mean()), 6 * by_quadrant[b][q].error())
                     << name << " in " << regions[q].name;
+        }
     }
 }
 
@@ -201,7 +202,9 @@ void strata_are_as_thick_as_described(u64 seeds, i32 a_side) {
             // Noise is read every fourth block and layers begin at whole blocks, upwards: only the first, which begins
             // at 0 anyway, gains half a block by it.
             EXPECT_NEAR(r.seen / blocks, (r.mean / blocks) + (l == 0 ? .5 : 0), .03 + .002 * r.mean / blocks) << where;
-            if (seeds >= 10) EXPECT_GT(r.seen / blocks, .05) << where;
+            if (seeds >= 10) {
+                EXPECT_GT(r.seen / blocks, .05) << where;
+            }
             EXPECT_LT(std::abs(r.noise.mean()), bound_of(4 * double(count)) * r.noise.error()) << where;
         }
         if (printing())
