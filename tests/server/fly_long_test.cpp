@@ -14,7 +14,6 @@ namespace vitrail {
 namespace {
 
 constexpr float kFullSpeed = 2 * kFlySpeed; // sprinting, blocks a second
-constexpr i64 kWay = 20000;                 // blocks
 
 struct Flight {
     std::unique_ptr<server::Server> server;
@@ -41,14 +40,18 @@ struct Flight {
     }
     server::Session& session() { return *server->world().sessions.at(0); }
     server::ServerDimension& dimension() { return server->world().dimensions.at(DimensionId::overworld); }
+    std::vector<float> wall_ms, cpu_ms; // of the server's ticks; processor time tells what a busy machine hides
     void tick() {
+        const u64 start = now_ns(), start_cpu = thread_time_ns();
         server->tick_once();
+        wall_ms.push_back(float(now_ns() - start) * 1e-6f);
+        cpu_ms.push_back(float(thread_time_ns() - start_cpu) * 1e-6f);
         ASSERT_TRUE(client->poll()) << client->lost_reason();
         (void)client->take_dirty();
     }
-    // Ticks at 20 Hz with a player who is moved from outside by `speed` along +x; the longest ticks, sorted, in ms.
-    std::vector<float> fly(i64 blocks, float speed, float pace, u64& late) {
-        std::vector<float> ticks;
+    // Ticks at 20 Hz times `pace` with a player who is moved from outside by `speed` along +x. Returns how many.
+    u64 fly(i64 blocks, float speed, float pace, u64& late) {
+        u64 ticks = 0;
         const i64 step = i64(double(speed) / server::kTicksASecond * double(kFixedOne));
         const u64 begin = now_ns();
         for (i64 way = 0; way < blocks * kFixedOne; way += step) {
@@ -63,15 +66,13 @@ struct Flight {
             const i32 ahead = i32(session().view_distance) * 5 / 6;
             for (i32 x = 0; x <= ahead; ++x)
                 late += !server::ready(dimension(), {here.x + x, here.z});
-            const u64 start = now_ns();
             tick();
-            ticks.push_back(float(seconds_since(start) * 1000));
+            ++ticks;
             if (pace > 0) {
-                const auto due = begin + u64(double(ticks.size()) * 1e9 / (server::kTicksASecond * pace));
+                const auto due = begin + u64(double(ticks) * 1e9 / (server::kTicksASecond * pace));
                 if (now_ns() < due) std::this_thread::sleep_for(std::chrono::nanoseconds(due - now_ns()));
             }
         }
-        std::sort(ticks.begin(), ticks.end());
         return ticks;
     }
 };
@@ -90,24 +91,31 @@ TEST(FlyLong, TwentyKilometersOfNewLandAtFullSpeed) {
     // so what is shown is 4 times the speed.
     const char* pace_text = std::getenv("VITRAIL_FLY_PACE");
     const float pace = pace_text ? float(std::atof(pace_text)) : 4;
+    const char* way_text = std::getenv("VITRAIL_FLY_KM");
+    const int kilometers = way_text ? std::atoi(way_text) : 20;
     u64 late = 0;
     std::vector<u64> memory, caches;
-    std::vector<float> ticks;
-    for (int leg = 0; leg < 20; ++leg) {
-        const auto some = flight.fly(kWay / 20, kFullSpeed, pace, late);
+    flight.wall_ms.clear(), flight.cpu_ms.clear();
+    u64 ticks = 0;
+    for (int leg = 0; leg < kilometers; ++leg) {
+        ticks += flight.fly(1000, kFullSpeed, pace, late);
         ASSERT_FALSE(testing::Test::HasFatalFailure());
-        ticks.insert(ticks.end(), some.begin(), some.end());
         memory.push_back(resident_memory_bytes());
         caches.push_back(flight.server->stats().generator_cache.bytes);
     }
-    std::sort(ticks.begin(), ticks.end());
+    std::sort(flight.wall_ms.begin(), flight.wall_ms.end());
+    std::sort(flight.cpu_ms.begin(), flight.cpu_ms.end());
+    const auto part = [](const std::vector<float>& of, std::size_t percent) {
+        return of[(of.size() - 1) * percent / 100];
+    };
     const auto stats = flight.server->stats();
     const auto& generation = stats.generation;
-    fmt::print("{:.1f} s until all was there; {} km at {:.1f} blocks/s ({:.0f} times real time: {:.1f}); tick p50 "
-               "{:.2f} p99 {:.2f} most {:.2f} ms; "
-               "{} of {} looks ahead found no column\n",
-               loaded, kWay / 1000, kFullSpeed, pace, kFullSpeed * pace, ticks[ticks.size() / 2],
-               ticks[ticks.size() * 99 / 100], ticks.back(), late, ticks.size() * 11);
+    fmt::print("{:.1f} s until all was there; {} km at {:.1f} blocks/s, {:g} times faster than time; {} of {} looks "
+               "ahead found no column\n",
+               loaded, kilometers, kFullSpeed, pace, late, ticks * 11);
+    fmt::print("server tick ms, wall p50 {:.2f} p99 {:.2f} most {:.2f}; processor p50 {:.2f} p99 {:.2f} most {:.2f}\n",
+               part(flight.wall_ms, 50), part(flight.wall_ms, 99), part(flight.wall_ms, 100), part(flight.cpu_ms, 50),
+               part(flight.cpu_ms, 99), part(flight.cpu_ms, 100));
     fmt::print("memory MB after each km:");
     for (u64 m : memory)
         fmt::print(" {}", m >> 20);
@@ -124,8 +132,8 @@ TEST(FlyLong, TwentyKilometersOfNewLandAtFullSpeed) {
     EXPECT_EQ(late, 0u);
     for (u64 bytes : caches)
         EXPECT_LE(bytes, TerrainGeneratorOptions{}.cache_bytes_most + (8u << 20));
-    EXPECT_LT(memory.back(), memory[4] + (64u << 20)) << "memory grows with the way";
-    EXPECT_GT(generation.finished, u64(kWay / 16 * 25));
+    if (kilometers > 5) EXPECT_LT(memory.back(), memory[4] + (64u << 20)) << "memory grows with the way";
+    EXPECT_GT(generation.finished, u64(kilometers) * 1000 / 16 * 25);
 }
 
 } // namespace
