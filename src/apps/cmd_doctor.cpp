@@ -2,6 +2,7 @@
 
 #include "gfx/context.h"
 #include "platform/headless.h"
+#include "terrain/cuda/device.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ Result<> run_doctor() {
     const char* display = std::getenv("DISPLAY");
     const char* wayland = std::getenv("WAYLAND_DISPLAY");
     fmt::print("display     {}\n", wayland && *wayland ? wayland : display && *display ? display : "none (pictures still work)");
-    fmt::print("cuda        not in this build\naudio       not in this build\n");
+    fmt::print("cuda        {}\naudio       not in this build\n", cuda_summary());
     fmt::print("store       SQLite {}\n", sqlite3_libversion());
     const auto content = content_folder();
     fmt::print("content     {}\n", content ? content->string() : content.error().message);

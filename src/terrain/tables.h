@@ -1,4 +1,4 @@
-// TerrainTables: everything the generator knows, flat, as kernels read it: plain numbers, no pointers, the same bytes on a
+// TerrainTables: everything the generator knows, flat, as kernels read it (kernel-safe): plain numbers, no pointers, the same bytes on a
 // GPU. Made from a TerrainDescription and a world seed by compile/compile.h. Indices are into the arrays of this struct.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Tiles: what each stage makes of one column of 16 x 16 blocks; plain arrays, the same on a CPU and a GPU. The index of a
+// Tiles: what each stage makes of one column of 16 x 16 blocks; plain arrays, the same on a CPU and a GPU (kernel-safe). The index of a
 // block column is x | z << 4.
 //
 // stage      reach (columns)  reads                                  makes

@@ -1,5 +1,5 @@
 // Strong coordinates (docs/decisions/0006-coordinates.md). No float ever holds an absolute position; only the named
-// functions below convert. y is up, x east, z south, as in Minecraft; chunks are cubes of 16^3 blocks.
+// functions below convert. Kernel-safe. y is up, x east, z south, as in Minecraft; chunks are cubes of 16^3 blocks.
 #pragma once
 
 #include "base/hash.h"

@@ -49,6 +49,23 @@ TEST(CudaTerrain, EqualsTheCpu) {
     }
 }
 
+TEST(CudaTerrain, PinnedHashOf1024Columns) {
+    const auto generator = base_generator(kSampleSeed);
+    auto gpu = open_cuda_batches(generator, {.columns_most = 576, .pack_threads = 3});
+    if (!gpu) GTEST_SKIP() << gpu.error().message;
+    const TerrainPalette palette = plain_palette(*generator);
+    u64 sum = 0;
+    for (const SampleRect& r : kSampleRects) {
+        const auto number = (*gpu)->submit({r.first, r.side, r.side});
+        ASSERT_TRUE(number) << number.error().message;
+        const auto columns = (*gpu)->collect(*number, palette);
+        ASSERT_TRUE(columns) << columns.error().message;
+        for (i32 i = 0; i < r.side * r.side; ++i)
+            sum += place_hash({r.first.x + i % r.side, r.first.z + i / r.side}, (*columns)[std::size_t(i)]);
+    }
+    EXPECT_EQ(sum, kSampleHash);
+}
+
 TEST(CudaTerrain, BatchesOverlapAndRefuse) {
     const auto generator = base_generator(7);
     auto gpu = open_cuda_batches(generator, {.batches = 2, .columns_most = 64, .pack_threads = 2});
