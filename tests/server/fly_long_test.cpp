@@ -132,7 +132,9 @@ TEST(FlyLong, TwentyKilometersOfNewLandAtFullSpeed) {
     EXPECT_EQ(late, 0u);
     for (u64 bytes : caches)
         EXPECT_LE(bytes, TerrainGeneratorOptions{}.cache_bytes_most + (8u << 20));
-    if (kilometers > 5) EXPECT_LT(memory.back(), memory[4] + (64u << 20)) << "memory grows with the way";
+    if (kilometers > 5) {
+        EXPECT_LT(memory.back(), memory[4] + (64u << 20)) << "memory grows with the way";
+    }
     EXPECT_GT(generation.finished, u64(kilometers) * 1000 / 16 * 25);
 }
 
