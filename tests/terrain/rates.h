@@ -79,6 +79,7 @@ inline FeatureOdds feature_odds(const Area& area, const TerrainDescription::Feat
                 while (open(end + 1))
                     ++end;
                 if (end - y + 1 < feature.least_height) continue;
+                if (feature.shape == "crystal_pillar" && end - y + 1 > 84) continue; // no crystal grows so long
                 if (feature.place == "cave_ceiling" && end + 1 >= top) continue;
                 const i32 stands = feature.place == "cave_ceiling" ? end : y;
                 if (stands < feature.lowest_y || stands > feature.highest_y) continue;
@@ -194,6 +195,8 @@ void decorator_places(const Area& area, i32 column, const DecoratedColumn& block
             if (!open(v)) continue;
             for (const i32 step : {1, -1}) {
                 if (open(v - step)) continue;
+                // A floor's plants, two blocks high at most, take the room of what would hang above them.
+                if (step < 0 && (!open(v - 1) || !open(v - 2))) continue;
                 double outside[kCaveBiomesMost];
                 cave_shares(t, ground, caves, index, v, shares);
                 cave_shares(t, ground, caves, index, v - step, outside);

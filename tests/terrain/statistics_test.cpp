@@ -8,6 +8,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
 
 namespace vitrail {
 namespace {
@@ -396,20 +397,28 @@ Residue decorator_residue(const Area& area, bool below_ground) {
     return r;
 }
 
-constexpr i32 kLags = 64;
+constexpr i32 kLags = 64, kNearLags = 6;
 
 struct Worst {
     double sigmas = 0, numbers = 0;
     std::string what;
+    void look(const Residue& r, const std::string& name, i32 lag_x, i32 lag_z) {
+        take(std::abs(r.sigmas(lag_x, lag_z)), fmt::format("{} at lag {},{}", name, lag_x, lag_z));
+    }
+    void take(double value, const std::string& name) {
+        numbers += value > 0;
+        if (value <= sigmas) return;
+        sigmas = value;
+        what = name;
+    }
+    // Along the axes and diagonals far, and in every direction nearby.
     void look(const Residue& r, const std::string& name) {
         for (i32 lag = 1; lag <= kLags; ++lag)
-            for (const auto& [x, z] : {std::pair{1, 0}, {0, 1}, {1, 1}, {-1, 1}}) {
-                const double v = std::abs(r.sigmas(lag * x, lag * z));
-                numbers += v > 0;
-                if (v <= sigmas) continue;
-                sigmas = v;
-                what = fmt::format("{} at lag {},{}", name, lag * x, lag * z);
-            }
+            for (const auto& [x, z] : {std::pair{1, 0}, {0, 1}, {1, 1}, {-1, 1}})
+                look(r, name, lag * x, lag * z);
+        for (i32 z = 1; z <= kNearLags; ++z)
+            for (i32 x = -kNearLags; x <= kNearLags; ++x)
+                if (x != 0 && std::abs(x) != z) look(r, name, x, z);
     }
     // Products of rare events have longer tails than normal numbers, hence the 1.2.
     double bound() const { return 1.2 * bound_of(numbers); }
@@ -433,6 +442,59 @@ void look_at(const SampledWorld& world, const Region& region, const std::string&
     }
     worst.look(decorator_residue(area, false), "decorators of " + biome + " in " + region.name);
     worst.look(decorator_residue(area, true), "decorators below " + biome + " in " + region.name);
+}
+
+// Coordinates that lose their signs make quadrants that mirror each other: pairs of blocks that would are as unlike as
+// any. Mirrors lie at 0 or between blocks.
+void quadrants_are_unlike(u64 seeds, i32 side, Worst& worst) {
+    constexpr int ways = 3;
+    struct Pair {
+        double both = 0, expected = 0;
+    };
+    std::map<std::array<int, 4>, Pair> pairs; // two quadrants, images of x and of z
+    const auto image = [](int way, i64 v) { return way == 0 ? v : way == 1 ? -v : -1 - v; };
+    for (u64 s = 0; s < seeds; ++s) {
+        const SampledWorld world(statistics_seed(s));
+        std::vector<Residue> outside, below;
+        for (const Region& region : quadrants(side)) {
+            const Area area(world, region.corner, side);
+            outside.push_back(decorator_residue(area, false));
+            below.push_back(decorator_residue(area, true));
+        }
+        const i64 size = outside[0].side;
+        for (int q = 0; q < 6 * ways * ways; ++q) {
+            constexpr int of[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+            const std::array<int, 4> key{of[q % 6][0], of[q % 6][1], q / 6 % ways, q / 6 / ways};
+            for (const auto* all : {&outside, &below}) {
+                const Residue &one = (*all)[size_t(key[0])], &other = (*all)[size_t(key[1])];
+                for (i64 z = one.first_z; z < one.first_z + size; ++z) {
+                    const i64 v = image(key[3], z) - other.first_z;
+                    if (v < 0 || v >= size) continue;
+                    for (i64 x = one.first_x; x < one.first_x + size; ++x) {
+                        const i64 u = image(key[2], x) - other.first_x;
+                        if (u < 0 || u >= size) continue;
+                        const size_t i = one.index(x, z), j = size_t(v * size + u);
+                        pairs[key].both += double(one.rest[i] * other.rest[j]);
+                        pairs[key].expected += double(one.variance[i] * other.variance[j]);
+                    }
+                }
+            }
+        }
+    }
+    for (const auto& [key, pair] : pairs)
+        if (pair.expected > 20)
+            worst.take(std::abs(pair.both) / std::sqrt(pair.expected),
+                       fmt::format("quadrants {} and {}, images {} and {}", key[0], key[1], key[2], key[3]));
+}
+
+TEST(TerrainStatistics, QuadrantsAreUnlike) {
+    Worst worst;
+    quadrants_are_unlike(kSanitized ? 1 : 3, kSanitized ? 8 : 16, worst);
+    if (printing())
+        fmt::print("{:.2f} sigmas ({}) of {} numbers, bound {:.2f}\n", worst.sigmas, worst.what, worst.numbers,
+                   worst.bound());
+    EXPECT_LT(worst.sigmas, worst.bound()) << worst.what;
+    EXPECT_GE(worst.numbers, kSanitized ? 0 : 12);
 }
 
 TEST(TerrainStatistics, NothingStandsInStripesOrPeriods) {
