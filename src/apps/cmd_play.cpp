@@ -34,6 +34,7 @@ Result<> run_play(const PlayOptions& options) {
     game.local.server.folder = world.string();
     game.local.server.name = world.filename().string();
     game.local.server.seed = options.seed;
+    game.local.server.device = options.device;
     game.local.replica.name = options.name;
     game.view_distance = options.view_distance;
     game.screenshot_folder = data_folder() / "screenshots";

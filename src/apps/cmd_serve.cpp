@@ -19,6 +19,7 @@ Result<> run_serve(const ServeOptions& options) {
     server::ServerOptions server_options;
     server_options.folder = options.world;
     server_options.create = false;
+    server_options.device = options.device;
     VX_TRY_ASSIGN(const auto server, server::Server::open(server_options, content));
     const std::atomic<bool>& stop = stop_on_signals();
     server->start();

@@ -66,11 +66,12 @@ struct PlayOptions {
     std::string world, connect, renderer = "raster", size, name = "player";
     std::optional<u64> seed;
     int view_distance = 0; // 0: as the settings say
+    std::string device = "auto";
 };
 Result<> run_play(const PlayOptions& options);
 
 struct ServeOptions {
-    std::string world;
+    std::string world, device = "auto";
     int port = 0;
 };
 Result<> run_serve(const ServeOptions& options);

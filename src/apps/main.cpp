@@ -147,6 +147,7 @@ int main(int argc, char** argv) {
         c->add_option("--size", play.size, "WxH of the window");
         c->add_option("--name", play.name, "player name");
         c->add_option("--view-distance", play.view_distance, "chunks")->check(CLI::Range(1, 32));
+        c->add_option("--device", play.device, "what makes the land: cpu, cuda or auto");
         commands.push_back({c, [&] { return run_play(play); }});
     }
     ServeOptions serve;
@@ -154,6 +155,7 @@ int main(int argc, char** argv) {
         auto* c = app.add_subcommand("serve", "Run a server without a window");
         c->add_option("--world", serve.world, "world folder")->required();
         c->add_option("--port", serve.port, "UDP port");
+        c->add_option("--device", serve.device, "what makes the land: cpu, cuda or auto");
         commands.push_back({c, [&] { return run_serve(serve); }});
     }
     BenchOptions bench;

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
     vitrail::apps::ServeOptions options;
     app.add_option("--world", options.world, "world folder")->required();
     app.add_option("--port", options.port, "UDP port");
+    app.add_option("--device", options.device, "what makes the land: cpu, cuda or auto");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

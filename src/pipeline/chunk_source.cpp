@@ -1,8 +1,10 @@
 #include "pipeline/chunk_source.h"
 
+#include "base/log.h"
 #include "pipeline/new_world.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace vitrail {
 
@@ -71,12 +73,23 @@ Result<StoredColumn> ChunkSource::read(const DimensionInfo& dimension, ColumnPos
     return stored;
 }
 
+GeneratedColumn ChunkSource::generate(ColumnPos at) const {
+    if (options_.device && !device_failed_) {
+        auto column = options_.device->take(at, palette_);
+        if (column) return std::move(*column);
+        // The CPU makes the same blocks: nobody need notice but by the time it takes.
+        if (!device_failed_.exchange(true))
+            log_error(fmt::format("land is made on the CPU from now on: {}", column.error().message));
+    }
+    return options_.generator->generate(at, palette_);
+}
+
 ColumnData ChunkSource::finish(const DimensionInfo& dimension, ColumnPos at, StoredColumn stored) const {
     // Where nothing was ever made and nothing will be, there is open air: an imported world ends in a cliff that can be
     // seen, and built out from; the store learns of such a column only when somebody does.
     ColumnData data{.at = at, .chunks = {}, .heights = {}, .made = true};
     if (!stored.whole) {
-        GeneratedColumn column = options_.generator->generate(at, palette_);
+        GeneratedColumn column = generate(at);
         for (std::size_t i = 0; i < column.chunks.size(); ++i) {
             const ChunkPos p{at.x, kTerrainMinY / kChunkSize + i32(i), at.z};
             if (p.y * 16 < dimension.min_y || p.y * 16 >= dimension.max_y) continue;

@@ -2,10 +2,12 @@
 // generator. Thread-safe and without state of its own, so workers ask it for many columns at once.
 #pragma once
 
+#include "pipeline/column_batches.h"
 #include "store/save_queue.h"
 #include "terrain/generator.h"
 #include "world/dimension.h"
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +32,7 @@ struct StoredColumn {
 struct ChunkSourceOptions {
     std::shared_ptr<const TerrainGenerator> generator; // null: none
     DimensionId generated_dimension = DimensionId::overworld;
+    std::shared_ptr<ColumnBatches> device = nullptr; // makes the columns instead, the same ones; null: the CPU does
 };
 
 class ChunkSource {
@@ -47,14 +50,19 @@ public:
     // Null where this dimension's columns come from the store alone.
     const TerrainGenerator* generator_of(const DimensionInfo& dimension) const;
 
+    // Whether stages are to be run one by one on the CPU before `finish`.
+    bool in_stages() const { return !options_.device; }
+
     const ChunkSourceOptions& options() const { return options_; }
 
 private:
     ChunkSource(WorldRecords& records, SaveQueue& saves, ChunkSourceOptions options);
     WorldRecords& records_;
     SaveQueue& saves_;
+    GeneratedColumn generate(ColumnPos at) const;
     ChunkSourceOptions options_;
     TerrainPalette palette_;
+    mutable std::atomic<bool> device_failed_{false};
 };
 
 } // namespace vitrail

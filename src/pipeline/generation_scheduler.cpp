@@ -475,7 +475,7 @@ public:
         , dimension_(std::move(dimension)) {}
     Result<StoredColumn> read(ColumnPos at) override { return source_.read(dimension_, at); }
     void missing(ColumnPos at, std::vector<TerrainTask>& out) override {
-        if (const auto* generator = source_.generator_of(dimension_)) generator->missing(at, out);
+        if (const auto* generator = source_.generator_of(dimension_); generator && source_.in_stages()) generator->missing(at, out);
     }
     void run(TerrainTask part) override {
         if (const auto* generator = source_.generator_of(dimension_)) generator->run(part);

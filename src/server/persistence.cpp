@@ -6,6 +6,7 @@
 #include "net/registry_codec.h"
 #include "pipeline/new_world.h"
 #include "server/interest.h"
+#include "terrain/cuda/device.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,6 +20,24 @@ u64 seed_of_new_world(const ServerOptions& options) {
     if (options.seed) return *options.seed;
     std::random_device device;
     return u64(device()) << 32 | device();
+}
+
+// Null: the CPU makes the land.
+Result<std::shared_ptr<ColumnBatches>> open_device(const std::string& name, std::shared_ptr<const TerrainGenerator> generator) {
+    if (name != "cpu" && name != "cuda" && name != "auto")
+        return fail(ErrorCode::invalid_argument, fmt::format("--device is cpu, cuda or auto, not '{}'", name));
+    if (name == "cpu" || !generator) return nullptr;
+    CudaOptions cuda;
+    cuda.batches = 1;
+    cuda.columns_most = ColumnBatches::kSide * ColumnBatches::kSide;
+    auto maker = open_cuda_batches(std::move(generator), cuda);
+    if (!maker) {
+        if (name == "cuda") return tl::unexpected(maker.error());
+        log_info(fmt::format("land is made on the CPU: {}", maker.error().message));
+        return nullptr;
+    }
+    log_info(fmt::format("land is made on {}", (*maker)->device_name()));
+    return std::make_shared<ColumnBatches>(std::move(*maker));
 }
 
 } // namespace
@@ -46,6 +65,8 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, const Con
                                     level ? level->generator_version : kGeneratorVersion, content.terrain.get(), seed);
     if (!generator)
         return fail(generator.error().code, fmt::format("world {}: {}", options.folder, generator.error().message));
+    ChunkSourceOptions source{*generator, DimensionId::overworld};
+    VX_TRY_ASSIGN(source.device, open_device(options.device, *generator));
     if (level) {
         world->level = std::move(*level);
     } else {
@@ -72,7 +93,7 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, const Con
     };
     world->saves = std::make_unique<SaveQueue>(*world->records, save_options);
     VX_TRY_ASSIGN(world->source,
-                  ChunkSource::create(*world->records, *world->saves, {std::move(*generator), DimensionId::overworld}));
+                  ChunkSource::create(*world->records, *world->saves, std::move(source)));
     world->pool = std::make_unique<ThreadPool>(options.threads);
     GenerationOptions generation;
     // Inside the tick, columns are few a tick and always the same ones.

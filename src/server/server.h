@@ -42,6 +42,7 @@ struct ServerOptions {
     bool create = true;                // make a world where there is none
     std::optional<u64> seed;           // of a new world; none: random
     std::string generator = "endless"; // of a new world; "" makes an empty one
+    std::string device = "cpu";      // that makes land: "cpu", "cuda" (or an error), "auto" (a GPU where there is one)
     std::string name = "World";        // of a new world
     bool read_only = false;            // takes no lock on the folder and keeps nothing; the world must exist
     std::optional<StartPlace> start;
