@@ -42,11 +42,10 @@ bool within(ChunkPos p, ChunkPos center, i32 radius) {
 u64 connections_of(ServerDimension& dimension, ChunkPos at, const OpaqueStates& opaque) {
     const DimensionInfo& info = dimension.dimension.info();
     if (at.y < info.min_y >> 4 || at.y >= info.max_y >> 4) return kAllConnected;
+    if (const auto known = dimension.connections.find(at); known != dimension.connections.end()) return known->second;
     const ChunkPtr chunk = dimension.dimension.find(at);
     if (!chunk) return ready(dimension, column_of(at)) ? kAllConnected : 0;
-    const auto [entry, fresh] = dimension.connections.try_emplace(at, 0);
-    if (fresh) entry->second = face_connections(chunk->blocks, opaque);
-    return entry->second;
+    return dimension.connections.emplace(at, face_connections(chunk->blocks, opaque)).first->second;
 }
 
 void let_go_beyond(Session& session, ChunkPos here) {

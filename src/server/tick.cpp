@@ -5,11 +5,15 @@
 #include "server/interest.h"
 #include "server/persistence.h"
 
+#include <algorithm>
+
 namespace vitrail::server {
 
 namespace {
 
-constexpr float kPublishBudgetMs = 25;
+// While nobody moves everybody waits for the land; later the tick stays short, and this is still several times what the
+// fastest player needs.
+constexpr float kPublishBudgetMs = 25, kPublishBudgetTravelMs = 8;
 constexpr u64 kUnloadTicks = 20, kTimeTicks = 100, kPlayerSaveTicks = 200;
 
 void tell_results(ServerWorld& world) {
@@ -41,7 +45,9 @@ void run_tick(ServerWorld& world) {
     move_players(world);
     run_edits(world);
     request_columns(world);
-    publish_columns(world, kPublishBudgetMs);
+    const bool travels =
+        std::any_of(world.sessions.begin(), world.sessions.end(), [](const auto& s) { return s->travels; });
+    publish_columns(world, travels ? kPublishBudgetTravelMs : kPublishBudgetMs);
     tell_light_changes(world);
     tell_results(world);
     for (auto& session : world.sessions) {

@@ -93,15 +93,51 @@ u64 face_connections(const BlockStorage& blocks, OpaqueStates opaque) {
     return out;
 }
 
+namespace {
+
+// By which faces sections of a box were entered: a byte each, or a hash where the box is too large for that.
+class EnteredFaces {
+public:
+    explicit EnteredFaces(const SectionBounds& bounds)
+        : min_(bounds.min)
+        , width_(i64(bounds.max.x) - bounds.min.x + 1)
+        , depth_(i64(bounds.max.z) - bounds.min.z + 1) {
+        const i64 height = i64(bounds.max.y) - bounds.min.y + 1;
+        if (width_ <= kFlatMost && depth_ <= kFlatMost / width_ && height <= kFlatMost / (width_ * depth_))
+            flat_.resize(std::size_t(width_ * depth_ * height));
+    }
+    // True for the first time.
+    bool enter(ChunkPos at, u32 face) {
+        u8& here = flat_.empty() ? far_[at] : flat_[index(at)];
+        const bool fresh = here == 0;
+        here |= u8(face | kSeen);
+        return fresh;
+    }
+    u32 faces(ChunkPos at) const { return (flat_.empty() ? far_.at(at) : flat_[index(at)]) & (kSeen - 1); }
+
+private:
+    static constexpr i64 kFlatMost = 1 << 20;
+    static constexpr u32 kSeen = 64;
+    std::size_t index(ChunkPos at) const {
+        return std::size_t(((i64(at.y) - min_.y) * depth_ + (i64(at.z) - min_.z)) * width_ + (i64(at.x) - min_.x));
+    }
+    ChunkPos min_;
+    i64 width_, depth_;
+    std::vector<u8> flat_;
+    std::unordered_map<ChunkPos, u8> far_;
+};
+
+} // namespace
+
 std::vector<ChunkPos> reachable_sections(ChunkPos start, const ConnectionsLookup& connections_at,
                                          SectionBounds bounds) {
     std::vector<ChunkPos> out;
     if (!bounds.contains(start)) return out;
     // A path that never turns back has, at a given section, always gone the same ways; so a section's walk depends only
     // on the faces it was entered by, and all of these are known once the steps before it are done.
-    std::unordered_map<ChunkPos, u8> entered;
+    EnteredFaces entered(bounds);
     out.push_back(start);
-    entered.emplace(start, u8(0));
+    (void)entered.enter(start, 0);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const ChunkPos at = out[i];
         u32 leave = 0;
@@ -109,7 +145,7 @@ std::vector<ChunkPos> reachable_sections(ChunkPos start, const ConnectionsLookup
         if (i == 0) {
             leave = 63;
         } else {
-            const u32 in = entered.find(at)->second;
+            const u32 in = entered.faces(at);
             for (u32 f = 0; f < 6; ++f)
                 if (in >> f & 1) leave |= u32(connections >> (f * 6)) & 63;
         }
@@ -120,9 +156,7 @@ std::vector<ChunkPos> reachable_sections(ChunkPos start, const ConnectionsLookup
             if (f & 1 ? along < 0 : along > 0) continue;
             const ChunkPos next = neighbor(at, Face(f));
             if (!bounds.contains(next)) continue;
-            const auto [it, fresh] = entered.try_emplace(next, u8(0));
-            it->second |= u8(1u << u32(opposite(Face(f))));
-            if (fresh) out.push_back(next);
+            if (entered.enter(next, 1u << u32(opposite(Face(f))))) out.push_back(next);
         }
     }
     return out;
