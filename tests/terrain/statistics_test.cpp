@@ -221,7 +221,7 @@ void strata_are_as_thick_as_described(u64 seeds, i32 a_side) {
 }
 
 TEST(TerrainStatistics, StrataAreAsThickAsDescribed) {
-    strata_are_as_thick_as_described(1, kSanitized ? 3 : 8);
+    strata_are_as_thick_as_described(1, 8);
 }
 TEST(TerrainStatistics, StrataAreAsThickAsDescribedOver20SeedsLong) {
     if (!long_statistics()) GTEST_SKIP() << "VITRAIL_LONG is not set";
@@ -288,7 +288,7 @@ void cave_biomes_occur(u64 seeds, i32 a_side) {
 }
 
 TEST(TerrainStatistics, CaveBiomesOccurAtTheirDepths) {
-    cave_biomes_occur(1, kSanitized ? 3 : 6);
+    cave_biomes_occur(1, 6);
 }
 TEST(TerrainStatistics, CaveBiomesOccurAtTheirDepthsOver20SeedsLong) {
     if (!long_statistics()) GTEST_SKIP() << "VITRAIL_LONG is not set";
