@@ -204,7 +204,7 @@ void strata_are_as_thick_as_described(u64 seeds, i32 a_side) {
             // at 0 anyway, gains half a block by it.
             EXPECT_NEAR(r.seen / blocks, (r.mean / blocks) + (l == 0 ? .5 : 0), .03 + .002 * r.mean / blocks) << where;
             if (seeds >= 10) {
-                EXPECT_GT(r.seen / blocks, .05) << where;
+                EXPECT_GT(r.seen / blocks, .005) << where; // the uppermost lie in high mountains only
             }
             EXPECT_LT(std::abs(r.noise.mean()), bound_of(4 * double(count)) * r.noise.error()) << where;
         }
