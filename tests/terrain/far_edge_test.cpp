@@ -110,8 +110,7 @@ void expect_same(u64 seeds, i32 a_side, double bound) {
                 variance += (a - mean[k]) * (a - mean[k]);
         const double n = double(v[0].size()), error = std::sqrt(variance / (2 * n - 2) * 2 / n);
         const double t = error > 0 ? (mean[1] - mean[0]) / error : 0;
-        if (long_statistics() || std::getenv("VITRAIL_PRINT"))
-            fmt::print("  {:40} {:10.5f} {:10.5f} t {:+.2f}\n", name, mean[0], mean[1], t);
+        if (printing()) fmt::print("  {:40} {:10.5f} {:10.5f} t {:+.2f}\n", name, mean[0], mean[1], t);
         EXPECT_LT(std::abs(t), bound) << name << ": " << mean[0] << " near the origin, " << mean[1] << " at the edge";
         EXPECT_TRUE(std::isfinite(mean[1])) << name;
     }

@@ -8,6 +8,21 @@
 
 namespace vitrail {
 
+// Whether tests print what they measured.
+inline bool printing() {
+    return long_statistics() || std::getenv("VITRAIL_PRINT") != nullptr;
+}
+
+// Within how many standard deviations all of so many normal numbers lie, but for one time in a thousand.
+inline double bound_of(double numbers) {
+    double low = 1, high = 12;
+    for (int i = 0; i < 60; ++i) {
+        const double mid = (low + high) / 2;
+        (std::erfc(mid / std::sqrt(2.0)) * numbers > 1e-3 ? low : high) = mid;
+    }
+    return high;
+}
+
 // Observed and expected numbers of independent things.
 struct Tally {
     double seen = 0, mean = 0, variance = 0;

@@ -157,7 +157,7 @@ TEST(TerrainRates, FeaturesAndDecoratorsStandAsOftenAsTheTablesSay) {
     expect_rates(rates);
     EXPECT_GT(expected_of(rates.features), kSanitized ? 2000 : 6000);
     EXPECT_GT(expected_of(rates.decorators), kSanitized ? 20000 : 60000);
-    if (std::getenv("VITRAIL_PRINT")) print(rates);
+    if (printing()) print(rates);
 }
 
 // The tests above can fail: a world whose chances are all a fifth lower is not taken for the one described.
