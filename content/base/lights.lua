@@ -1,10 +1,11 @@
 -- Blocks whose first purpose is light.
 
 local glow = { material = "glass", hardness = 0.3 }
-block("glowstone", merge(glow, { texture = "glowstone", light = { 15, 12, 6 } }))
+-- Each color loses a step a block, so what starts far apart ends as deep red: lamps of caves begin near white.
+block("glowstone", merge(glow, { texture = "glowstone", light = { 15, 13, 9 } }))
 block("sea_lantern", merge(glow, { texture = "sea_lantern", light = { 11, 14, 15 } }))
 define_texture("sea_lantern", { frame_time = 6 })
-block("shroomlight", { texture = "shroomlight", material = "plant", hardness = 1, light = { 15, 10, 5 } })
+block("shroomlight", { texture = "shroomlight", material = "plant", hardness = 1, light = { 15, 12, 8 } })
 for name, light in pairs { ochre = { 15, 13, 7 }, verdant = { 10, 15, 9 }, pearlescent = { 14, 11, 15 } } do
   pillar(name .. "_froglight", { name .. "_froglight_side", name .. "_froglight_top" }, { material = "plant", hardness = 0.3, light = light })
 end

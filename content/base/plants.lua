@@ -12,7 +12,7 @@ potted("dead_bush")
 FLOWERS = { "dandelion", "poppy", "blue_orchid", "allium", "azure_bluet", "red_tulip", "orange_tulip", "white_tulip", "pink_tulip",
   "oxeye_daisy", "cornflower", "lily_of_the_valley", "wither_rose", "torchflower" }
 for _, name in ipairs(FLOWERS) do
-  plant(name, name == "torchflower" and { light = { 12, 8, 3 } } or nil)
+  plant(name, name == "torchflower" and { light = { 12, 9, 5 } } or nil)
   potted(name)
 end
 plant("open_eyeblossom", { light = { 2, 1, 0 } })
@@ -95,10 +95,10 @@ block("resin_clump", merge(PLANT, { shape = "faces", texture = "resin_clump", sw
 plant("pale_hanging_moss", { variants = { ["tip=true"] = { texture = "pale_hanging_moss_tip" } } }, "tip!")
 plant("hanging_roots", nil, "wl")
 plant("spore_blossom", { texture = "spore_blossom" })
-local berries = { ["berries=true"] = { texture = "cave_vines_lit", light = { 14, 10, 4 } } }
+local berries = { ["berries=true"] = { texture = "cave_vines_lit", light = { 14, 11, 6 } } }
 plant("cave_vines", { texture = "cave_vines", climbable = true, variants = berries }, "age:0-25 berries?")
 plant("cave_vines_plant", { texture = "cave_vines_plant", climbable = true, variants = {
-  ["berries=true"] = { texture = "cave_vines_plant_lit", light = { 14, 10, 4 } } } }, "berries?")
+  ["berries=true"] = { texture = "cave_vines_plant_lit", light = { 14, 11, 6 } } } }, "berries?")
 
 block("azalea", merge(PLANT, { shape = "boxes", texture = { "azalea_side", "azalea_top" }, collision = true,
   boxes = { { 0, 8, 0, 16, 16, 16 }, { 0, 0, 8, 16, 8, 8, "azalea_plant" }, { 8, 0, 0, 8, 8, 16, "azalea_plant" } } }))

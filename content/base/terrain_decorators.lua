@@ -53,11 +53,14 @@ grow("warped_forest", { "vitrail:warped_deepslate", "vitrail:warped_blackstone" 
 grow("amber_forest", { "vitrail:amber_deepslate", "vitrail:amber_blackstone" }, { ["vitrail:amber_fungus"] = .02, ["vitrail:amber_roots"] = .06 }, "cave_floor")
 
 -- What the land would miss beside all that: plants of our own, and something in the biomes that would be bare.
-grow("coral_reef", "ground", { ["sea_pickle[pickles=3,waterlogged=true]"] = .006 }, "sea_floor")
+grow("coral_reef", "ground", { ["sea_pickle[pickles=3,waterlogged=true]"] = .016 }, "sea_floor")
+-- Dunes bear a little grass; bare sand to the horizon is dull.
+grow("beach", "sand", { ["vitrail:savanna_grass"] = .035, ["vitrail:desert_scrub"] = .003 })
+grow("rocky_beach", { "gravel", "ground" }, { ["vitrail:savanna_grass"] = .012, dead_bush = .004 })
 grow("savanna", TURF, { ["vitrail:desert_scrub"] = .006 })
 grow("mesa", "ground", { ["vitrail:desert_scrub"] = .012, dead_bush = .01 })
 grow("sparse_desert", "vitrail:smooth_sand", { ["vitrail:desert_scrub"] = .006 })
-grow("frozen_wasteland", { "snow_block", "grass_block[snowy=true]" }, { ["vitrail:ice_flower"] = .004 })
+grow("frozen_wasteland", { "snow_block", "grass_block[snowy=true]" }, { ["vitrail:ice_flower"] = .012 })
 grow("redwood_forest", TURF, { ["vitrail:golden_fern"] = .03, fern = .06 })
 grow("swamp", { "mud", "vitrail:jungle_grass_block" }, { ["vitrail:cattail"] = .05, ["vitrail:swamp_iris"] = .02 })
 grow("tianzi_mountains", TURF, { short_grass = .15, fern = .06, azalea = .008 })

@@ -32,6 +32,9 @@ local birch = { numbers = { tall_share = .08, yellow_share = .1, orange_share = 
   leaves = "birch_leaves[persistent=true]", leaves_yellow = "vitrail:yellow_birch_leaves[persistent=true]", leaves_orange = "vitrail:orange_birch_leaves[persistent=true]" } }
 feature("birch_lush_birch_forest", "birch", "lush_birch_forest", 9, 2, .7, merge(DIRT, birch))
 feature("birch_swamp", "birch", "swamp", 16, 2, .15, merge(on({ "dirt", "mud" }, .5), birch))
+-- Conifers of the valleys, up to the tree line.
+feature("conifer_mountains", "redwood", "mountains", 13, 2, .35, merge(DIRT, { highest_y = 188,
+  numbers = { height_least = 15, height_most = 22, giant_share = 0 }, blocks = wood("spruce_log", "spruce_leaves") }))
 -- Pines and shrubs cling to the bare sandstone of pillars.
 feature("pine", "pine", "tianzi_mountains", 7, 1, .8, { blocks = wood("spruce_log", "vitrail:pine_leaves") })
 feature("shrub", "shrub", "tianzi_mountains", 6, 1, .8,
@@ -66,6 +69,10 @@ local crystal = { first = "vitrail:magenta_crystal", second = "vitrail:cyan_crys
 feature("crystal_medium", "crystal", "crystals", 28, 6, .9, { highest_y = 179, blocks = crystal,
   numbers = { height_least = 8, height_most = 20, radius_least = 1.5, radius_most = 3, shards_least = 2, shards_most = 5 } })
 feature("crystal_large", "crystal", "crystals", 52, 10, .8, { highest_y = 179, blocks = crystal })
+-- Blades of ice break the white of the wasteland.
+feature("ice_blades", "crystal", "frozen_wasteland", 60, 9, .55, merge(on("snow", .3), {
+  blocks = { first = "packed_ice", second = "blue_ice", third = "packed_ice" },
+  numbers = { height_least = 7, height_most = 20, radius_least = 1.5, radius_most = 3, shards_least = 3, shards_most = 7 } }))
 
 -- Below ground; least_height is that of the cavern.
 local stormlight = { core = "vitrail:stormlight", shell = "vitrail:stormlight_shell", cord = "vitrail:stormlight_tendril" }

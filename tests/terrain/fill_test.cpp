@@ -124,7 +124,7 @@ TEST_F(FillTest, LayersWaterAndCavesLieWhereTheyShould) {
             const std::vector<Bound> layers = layers_of(t, *ground, place, i);
             const i32 top = ceil_level(double(ground->top[i]));
             const u32 x = (u32(place.x) << 4) + u32(i & 15), z = (u32(place.z) << 4) + u32(i >> 4);
-            const double within = double(unit_of(random_next(random_bits(t.pick_key, x, z), 0)));
+            const double within = double(unit_of(random_next(clump_bits(t.pick_key, x, z), 0)));
             for (i32 y = 0; y < kTerrainHeight; ++y) {
                 const Block got = at(i, y);
                 if (got != kAir) highest = std::max(highest, y + 1);

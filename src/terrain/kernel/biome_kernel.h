@@ -134,13 +134,18 @@ VX_HD void load_attributes(const TerrainTables& t, const Tile& tile, i32 index, 
         attribute[i] = L::load(tile.attribute[i] + index);
 }
 
+// The number in [0, 1) that a block column's biome is drawn with.
+template <class L>
+VX_HD typename L::F biome_draw(const TerrainTables& t, const Row<L>& row) {
+    return unit_of(random_next(clump_bits(t.pick_key, row.block_x(), row.block_z()), 1));
+}
 // Which surface biome the materials, rules and decorators of each block column come from: one draw for all of them, so
 // that blocks mix at borders and still belong together.
 template <class L, class Tile>
 VX_HD_FN typename L::U surface_biome_row(const TerrainTables& t, const Tile& tile, const Row<L>& row) {
     typename L::F attribute[kAttributesMost];
     load_attributes<L>(t, tile, row.index, attribute);
-    return pick_biome<L>(t, attribute, unit_of(random_bits(t.pick_key, row.block_x(), row.block_z())));
+    return pick_biome<L>(t, attribute, biome_draw<L>(t, row));
 }
 
 } // namespace vitrail

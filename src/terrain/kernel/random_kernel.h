@@ -36,6 +36,14 @@ template <class U>
 VX_HD U random_bits(RandomKey key, U x, U y, U z) {
     return mix_bits(random_bits(key, x, z) + y * 0xc2b2ae3du);
 }
+// Bits that most blocks of a clump share: those of a cell of 8 x 8 blocks, looked up at a place up to 3 blocks away. What is
+// mixed by them meets in ragged clumps, where bits of each block would make grains of salt and pepper. Uniform for every place,
+// whatever its neighbors have.
+template <class U>
+VX_HD U clump_bits(RandomKey key, U x, U z) {
+    const U own = random_bits(key, x, z);
+    return random_bits(key, (x + (own & 3u)) >> 3, (z + (own >> 2 & 3u)) >> 3);
+}
 // The counter-th further number from bits of the place.
 template <class U>
 VX_HD U random_next(U bits, u32 counter) {

@@ -135,8 +135,7 @@ template <class L>
 VX_HD_FN void surface_rules_row(const TerrainTables& t, const Row<L>& row, typename L::I top,
                                 const typename L::F* inputs, BlockTile& out) {
     if (t.surface_rules == 0) return;
-    const typename L::U picked =
-        pick_biome<L>(t, inputs, unit_of(random_bits(t.pick_key, row.block_x(), row.block_z())));
+    const typename L::U picked = pick_biome<L>(t, inputs, biome_draw<L>(t, row));
     for (u32 r = 0; r < t.surface_rules; ++r) {
         const auto here = picked == L::u(t.surface_rule[r].biome);
         if (L::any(here)) surface_rule_row<L>(t, t.surface_rule[r], row, here, top, inputs, out);

@@ -93,7 +93,7 @@ VX_HD_FN LayerStack<L> layer_stack(const TerrainTables& t, const GroundTile& gro
     for (u32 s = 0; s < t.strata; ++s)
         if (t.stratum[s].hung && L::any(thick[s] > zero)) add(t.stratum[s].block, hung_from[s]);
     const typename L::I end = block_above<L>(top);
-    const F within = unit_of(random_next(random_bits(t.pick_key, row.block_x(), row.block_z()), 0));
+    const F within = unit_of(random_next(clump_bits(t.pick_key, row.block_x(), row.block_z()), 0));
     const F last = to_float(end - 1), asked = last + within * (top - last); // of the topmost block
     for (u32 l = 0; l < t.loose; ++l) {
         const F next = l + 1 < t.loose ? loose_from[l + 1] : top;

@@ -91,7 +91,8 @@ template <class L>
 VX_HD_FN void build_coral(ShapeBuilder<L>& b) {
     using namespace coral_detail;
     float size = b.range(b.number(parts::coral::size_least), b.number(parts::coral::size_most));
-    size = least(size, greatest(b.room() - 1.0f, 1.0f));
+    // Forks and stacked tables rise to 1.8 times the size: what is cut at the waterline shows as rafts of coral.
+    size = least(size, greatest((b.room() - 1.0f) * 0.55f, 1.0f));
     const u32 kind = b.below(5);
     Brush p = b.paint(kind); // parts::coral::tube and the following
     p.flags = solid_only_water;
