@@ -12,11 +12,13 @@ vec3 shade(vec3 albedo, vec3 n, vec4 light, float ao, float emission, float roug
     // Two sides that both turn from the sun must still differ, or edges drown.
     float edge = 1.0 - 0.10 * abs(n.x);
     vec3 sum = (dome * (sky * edge)) * ao + sun_light.rgb * (facing * open_sky * (0.35 + 0.65 * ao));
-    // Lamps: nearly a square law; weak light is warmer than strong light.
-    vec3 block = light.rgb * light.rgb * (0.35 + 0.65 * light.rgb) * vec3(1.45, 1.22, 0.98);
-    float strongest = max(max(block.r, block.g), block.b);
-    block *= mix(vec3(1.12, 0.86, 0.60), vec3(1.0), min(strongest, 1.0));
-    sum += (block * 1.35 + vec3(0.0200, 0.0210, 0.0240)) * ao; // the last: what eyes used to the dark still see
+    // Lamps: between a linear and a square law. Each channel loses one level a block, so far from a lamp only its strongest color
+    // would be left: the weaker a light, the nearer to gray it is taken.
+    float strongest = max(max(light.r, light.g), light.b);
+    float gray = mix(1.15, 0.15, strongest) * strongest;
+    vec3 hue = (light.rgb + gray) / max(strongest + gray, 1e-3);
+    vec3 block = hue * vec3(1.10, 0.97, 0.84) * (strongest * (0.16 + 1.24 * strongest));
+    sum += (block + vec3(0.0200, 0.0210, 0.0240)) * ao; // the last: what eyes used to the dark still see
 #ifdef HIGH
     // A gloss for what is smooth: Blinn-Phong with energy kept roughly.
     vec3 halfway = normalize(light_direction.xyz - towards);
@@ -27,7 +29,7 @@ vec3 shade(vec3 albedo, vec3 n, vec4 light, float ao, float emission, float roug
 #else
     vec3 result = albedo * sum;
 #endif
-    return result + albedo * (emission * 2.6);
+    return result + albedo * (emission * 1.9);
 }
 
 // away: blocks; towards: unit direction from the eye; underwater 0 or 1; sky: its light on the surface, 0..1.
