@@ -8,6 +8,8 @@ end
 --- Turf: the topmost dirt becomes `block`.
 local function turf(block) return { from = "dirt", depth = 1, to = block } end
 local GRASS, JUNGLE_GRASS = turf("grass_block"), turf("vitrail:jungle_grass_block")
+-- Biomes without dirt of their own have some at their borders, a neighbor's: it too wears turf, or bare patches show.
+local DRY_GRASS = turf("vitrail:savanna_grass_block")
 local NOT_DIRT = { "rock", "gravel", "clay", "mud", "red_sand", "sand", "vitrail:smooth_sand", "snow_block" }
 
 -- Seas and shores.
@@ -20,7 +22,7 @@ biome("archipelago", "+-+-..", "107 + 24 F(.006) + 22 ss(1, 0, ((F4(.0055) + 1) 
 biome("warm_ocean", "+--.+.", "93 + 18 F(.0055)", { dirt = 0, sand = .7 })
 biome("icebergs", "+--+-.", "66 + 18 F(.006)", { dirt = 0, gravel = .5 })
 biome("cool_ocean", "+----.", "80 + 22 F(.0065)", { dirt = 0, gravel = .5 })
-biome("rocky_beach", "+++...", "134 + 8 F(.007)", { dirt = 0, gravel = 1 })
+biome("rocky_beach", "+++...", "134 + 8 F(.007)", { dirt = 0, gravel = 1 }, { GRASS })
 biome("tropical_beach", "++-.+.", "129.5 + 6 F(.0045)", { dirt = 0, smooth_sand = 1 }, { { from = "ground", depth = 2, to = "vitrail:smooth_sand" } })
 biome("beach", "++-.-.", "132 + 5 F(.0055)", { dirt = 0, sand = 1 }, { { from = "ground", depth = 2, to = "sand" } })
 
@@ -29,7 +31,7 @@ biome("beach", "++-.-.", "132 + 5 F(.0055)", { dirt = 0, sand = 1 }, { { from = 
 biome("savanna", "-.++++", [[
   x = 24 F3(.012); z = 24 F3(.012);
   136 + 9 F4(.008) + 14 warp(x, z, ss(.03, .07, E(.007)) ss(.5, .52, R(.007))) + 9 warp(x, z, ss(.03, .07, E(.0045)) ss(.45, .47, R(.0045)))]],
-  { stone = .6, tuff = .15, calcite = 0, granite = .2, terracotta = 3.2, marble = 0 }, { turf("vitrail:savanna_grass_block") })
+  { stone = .6, tuff = .15, calcite = 0, granite = .2, terracotta = 3.2, marble = 0 }, { DRY_GRASS })
 
 local bands = {}
 for _, band in ipairs { { 5, "" }, { 3, "orange_" }, { 4, "red_" }, { 2, "white_" }, { 6, "" }, { 1, "orange_" }, { 5, "yellow_" }, { 3, "purple_" }, { 3, "" } } do
@@ -39,7 +41,7 @@ end
 biome("mesa", "-.+++-", [[
   e = warp(28 F3(.011), 28 F3(.011), E(.003));
   122 + 10 ss(0, .05, e) + (37.5 + 5 F4(.03)) ss(.07, .22, e) + 6 S(.025)]],
-  { clay = .8, dirt = 0 }, { { from = { "rock", "clay" }, above = "108 + 12 F3(.004)", bands = bands } })
+  { clay = .8, dirt = 0 }, { { from = { "rock", "clay" }, above = "108 + 12 F3(.004)", bands = bands }, DRY_GRASS })
 -- A lake's ice is three blocks thick here, with water below it.
 biome("frozen_wasteland", "-.++-+", "136 + 16 F(.0035)", { granite = 0, dirt = .6, snow = 1.1 }, {
   turf("grass_block[snowy=true]"),
@@ -52,7 +54,7 @@ biome("swamp", "-.+-++", "130 + 12 F(.008)", { clay = 1.7, mud = 2.2, dirt = .6 
   { from = "dirt", below = "128.8 + 1.1 S(.03)", to = "mud" },
   JUNGLE_GRASS,
 })
-biome("sparse_desert", "-.+-+-", "132 + 4 F4(.007) + 18 W(.016)^2", { marble = 2, andesite = .5, dirt = 0, smooth_sand = 1.4 })
+biome("sparse_desert", "-.+-+-", "132 + 4 F4(.007) + 18 W(.016)^2", { marble = 2, andesite = .5, dirt = 0, smooth_sand = 1.4 }, { DRY_GRASS })
 biome("lush_birch_forest", "-.+--+", "135 + 8 F(.009) + 20(S(.0012) + .8)", {}, { GRASS })
 -- Pillars of sandstone, two sizes of them, with turf wherever dirt can lie.
 biome("tianzi_mountains", "-.+---", [[
@@ -61,7 +63,7 @@ biome("tianzi_mountains", "-.+---", [[
 
 -- Magic without rocks.
 biome("jungle", "-.-+++", "139 + 8 F(.012) + 25(S(.003) + .5)", { clay = 1, mud = 1, dirt = .5 }, { JUNGLE_GRASS })
-biome("red_desert", "-.-++-", "137 + 13 F(.0075)", { red_sandstone = 1, dirt = 0, red_sand = 1 })
+biome("red_desert", "-.-++-", "137 + 13 F(.0075)", { red_sandstone = 1, dirt = 0, red_sand = 1 }, { DRY_GRASS })
 biome("purple_mushrooms", "-.-+-+", "136 + 9 F(.014)", { gravel = .4 }, { turf("mycelium") })
 -- Spires of quartz, each of its own height, on rises that are few and far between. Quartz is where the land stands high.
 biome("crystals", "-.-+--", [[
@@ -73,6 +75,7 @@ biome("crystals", "-.-+--", [[
   -- thin sheet would draw pale contour lines all over the dark ground that crystals stand out from.
   { from = "ground", depth = 1, above = "400 ss(.68, .64, S(.045))", to = "mycelium" },
   { from = "clay", depth = 1, to = "gravel" },
+  turf("mycelium"),
 })
 
 -- Neither.
@@ -81,7 +84,7 @@ biome("oasis", "-.--++", "132 + 9 F(.012)", { sandstone = 1, clay = .4, dirt = .
   JUNGLE_GRASS,
   { from = "sand", depth = 1, below = "133 + 5 F3(.03)", to = "vitrail:jungle_grass_block" },
 })
-biome("desert", "-.--+-", "136 + 6 F(.011)", { sandstone = 1, dirt = 0, sand = 1 })
+biome("desert", "-.--+-", "136 + 6 F(.011)", { sandstone = 1, dirt = 0, sand = 1 }, { DRY_GRASS })
 biome("plains", "-.---+", "144 + 8 F(.008)", {}, { GRASS })
 -- F4 where five octaves would be finer than two blocks.
 biome("mountains", "-.----", [[

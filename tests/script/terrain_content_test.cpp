@@ -333,7 +333,7 @@ TEST_F(BaseTerrain, AttributesAndBiomesAreThoseOfTheTable) {
     EXPECT_THAT(caves, testing::UnorderedElementsAre("vitrail:none", "vitrail:crystal_caves", "vitrail:lush_caves",
                                                      "vitrail:warped_forest", "vitrail:amber_forest"));
     const auto& mesa = d().biomes[9];
-    ASSERT_EQ(mesa.rules.size(), 1u);
+    ASSERT_EQ(mesa.rules.size(), 2u); // bands, and turf on what dirt comes over the border
     EXPECT_EQ(mesa.rules[0].bands.size(), 32u);
 }
 
