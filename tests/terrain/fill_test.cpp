@@ -308,7 +308,7 @@ TEST_F(FillTest, SameBitsFromEveryVectorSetAndFromSingleThreads) {
         }
         BlockTile threads;
         for (i32 i = 0; i < kColumnCells; ++i)
-            fill_row<One>(t, thread_row(place, i), *ground, *caves, nullptr, kTerrainHeight, threads);
+            fill_row<One>(t, thread_row(place, i), *ground, *caves, nullptr, nullptr, kTerrainHeight, threads);
         for (i32 b = 0; b < kTerrainHeight * kColumnCells; ++b)
             ASSERT_EQ(int(threads.block[b]), int(want->block[b])) << "block column " << (b & 255) << " y " << (b >> 8);
     }

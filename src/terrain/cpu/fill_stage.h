@@ -13,7 +13,7 @@ void fill_stage(const TerrainTables& t, ColumnPos at, const GroundTile& ground, 
     out.top = block_above<OneLane<L>>(highest);
     CoarseFields fields;
     for (i32 row = 0; row < 16; ++row)
-        fill_row<L>(t, wide_row<L>(at, row), ground, caves, &fields, out.top, out);
+        fill_row<L>(t, wide_row<L>(at, row), ground, caves, &fields.strata, &fields, out.top, out);
     __builtin_memset(out.block + (out.top << 8), kAir, u64(kTerrainMaxY - out.top) << 8);
 }
 

@@ -20,15 +20,26 @@ __device__ i32 ringed(const BatchView& v, i32 column) {
 
 __global__ void fill_kernel(BatchView v) {
     __shared__ i32 top;
+    __shared__ __align__(16) u8 shared_strata[sizeof(CoarseStrata)];
+    CoarseStrata& strata = *reinterpret_cast<CoarseStrata*>(shared_strata);
     const i32 column = i32(blockIdx.x), index = i32(threadIdx.x);
     const GroundTile& ground = v.grounds[ringed(v, column)];
-    if (index == 0) top = kTerrainSeaLevel;
+    if (index == 0) {
+        top = kTerrainSeaLevel;
+        strata.ready = ~0u;
+    }
+    // The points between which the strata's noise is interpolated, one a thread.
+    const Row<L> own = thread_row(v.column(column, 0), index);
+    for (i32 i = index; i < i32(v.tables->strata) * kCoarsePoints; i += i32(blockDim.x)) {
+        const i32 s = i / kCoarsePoints, p = i % kCoarsePoints;
+        const Spot<L> at{own.x, own.z, float(p % 5 * kCoarseStep), 0.0f, float(p / 5 * kCoarseStep)};
+        strata.plane[s].point[p] = coarse_sample<L>(*v.tables, v.tables->stratum[s].noise, at, true);
+    }
     __syncthreads();
     atomicMax(&top, block_above<L>(ground.top[index]));
     __syncthreads();
     BlockTile& out = v.blocks[column];
-    fill_row<L>(*v.tables, thread_row(v.column(column, 0), index), ground, v.caves[ringed(v, column)], nullptr, top,
-                out);
+    fill_row<L>(*v.tables, own, ground, v.caves[ringed(v, column)], &strata, nullptr, top, out);
     for (i32 y = top; y < kTerrainMaxY; ++y)
         out.block[y << 8 | index] = kAir;
     if (index == 0) out.top = top;

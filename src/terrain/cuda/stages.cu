@@ -65,10 +65,12 @@ __global__ void raise_kernel(BatchView v, u32 layer) {
     v.surface[1][at] = s; // the outermost ring stays as it is
 }
 
-__global__ void erode_kernel(BatchView v, i32 from, Repose repose) {
+// Where the layer is absent a pass is the identity, and both planes hold the floor since the layer was raised.
+__global__ void erode_kernel(BatchView v, u32 layer, i32 from, Repose repose) {
     const i32 x = i32(blockIdx.x * blockDim.x + threadIdx.x), z = i32(blockIdx.y * blockDim.y + threadIdx.y);
     if (x < 1 || z < 1 || x >= v.plane_stride() - 1 || z >= v.plane_rows() - 1) return;
     const i32 at = plane_index(v, x, z), stride = v.plane_stride();
+    if (v.loose[i32(layer) * v.plane_size() + at] == 0.0f) return;
     const float* here = v.surface[from] + at;
     v.surface[from ^ 1][at] = eroded<L>(here - stride, here, here + stride, v.floor[at], repose);
 }
@@ -132,7 +134,7 @@ void launch_ground(const BatchView& v, const BatchRows& rows, cudaStream_t strea
         raise_kernel<<<flat, 256, 0, stream>>>(v, l);
         i32 from = 0;
         for (u32 pass = 0; pass < rows.passes; ++pass, from ^= 1)
-            erode_kernel<<<grid, size, 0, stream>>>(v, from, Repose{rows.repose[l], rows.repose[l] * kDiagonal});
+            erode_kernel<<<grid, size, 0, stream>>>(v, l, from, Repose{rows.repose[l], rows.repose[l] * kDiagonal});
         settle_kernel<<<flat, 256, 0, stream>>>(v, l, from);
     }
     ground_kernel<<<u32(v.columns(kFeatureReach)), 256, 0, stream>>>(v);

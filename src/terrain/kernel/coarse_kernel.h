@@ -16,12 +16,15 @@ inline constexpr u32 kCoarseVeins = 8; // veined rules whose points are kept; fu
 struct CoarsePlane {
     float point[40]; // kCoarsePoints of them, and room for whole vectors
 };
+struct CoarseStrata {
+    u32 ready = 0; // bits
+    CoarsePlane plane[kStrataMost];
+};
 struct CoarseFields {
-    u32 strata_ready = 0; // bits
+    CoarseStrata strata;
     u32 veins = 0;        // how many of the following are in use
     u16 vein_rule[kCoarseVeins];
     u32 vein_ready[kCoarseVeins][(kCoarseLevels + 31) / 32];
-    CoarsePlane stratum[kStrataMost];
     CoarsePlane vein[kCoarseVeins][kCoarseLevels];
 };
 
@@ -95,16 +98,16 @@ VX_HD_FN typename L::F coarse_anew(const TerrainTables& t, u32 noise, const Row<
     return side[0] + (side[1] - side[0]) * part_x;
 }
 
-// fields: of this column, or null.
+// strata: of this column, or null.
 template <class L>
-VX_HD typename L::F stratum_noise(const TerrainTables& t, u32 stratum, const Row<L>& row, CoarseFields* fields) {
+VX_HD typename L::F stratum_noise(const TerrainTables& t, u32 stratum, const Row<L>& row, CoarseStrata* strata) {
     const u32 noise = t.stratum[stratum].noise;
-    if (!fields) return coarse_anew<L>(t, noise, row, -1);
-    if ((fields->strata_ready >> stratum & 1) == 0) {
-        coarse_plane<L>(t, noise, row.x, row.z, -1, fields->stratum[stratum]);
-        fields->strata_ready |= 1u << stratum;
+    if (!strata) return coarse_anew<L>(t, noise, row, -1);
+    if ((strata->ready >> stratum & 1) == 0) {
+        coarse_plane<L>(t, noise, row.x, row.z, -1, strata->plane[stratum]);
+        strata->ready |= 1u << stratum;
     }
-    return coarse_at<L>(fields->stratum[stratum], row);
+    return coarse_at<L>(strata->plane[stratum], row);
 }
 
 // Noise of veins at the block level y = 4 * level; rule: index of the cave rule.

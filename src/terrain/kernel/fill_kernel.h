@@ -2,7 +2,8 @@
 // below kTerrainLavaLevel, water above ground below kTerrainSeaLevel, then the rules (kernel/{,cave_}rule_kernel.h). A
 // pure function of the column's own ground and caves.
 //
-// One GPU thread a block column: fill_row(t, thread_row(at, index), ground, caves, nullptr, kTerrainHeight, out).
+// One GPU thread a block column: fill_row(t, thread_row(at, index), ground, caves, strata, nullptr, end, out), strata shared
+// by the column's threads with all planes made, or null.
 #pragma once
 
 #include "terrain/kernel/cave_layers.h"
@@ -48,10 +49,10 @@ VX_HD_FN void carve(BlockTile& out, const CaveTile& caves, i32 index, i32 end) {
 
 } // namespace fill_detail
 
-// Writes every level y < end; above the ground and the sea they are air. 16 <= end <= kTerrainHeight.
+// strata, fields: kept points of this column, or null. Writes every level y < end; above the ground and the sea they are air. 16 <= end <= kTerrainHeight.
 template <class L>
 VX_HD_FN void fill_row(const TerrainTables& t, const Row<L>& row, const GroundTile& ground, const CaveTile& caves,
-                       CoarseFields* fields, i32 end, BlockTile& out) {
+                       CoarseStrata* strata, CoarseFields* fields, i32 end, BlockTile& out) {
     using namespace fill_detail;
     using I = typename L::I;
     typename L::F inputs[kInputs];
@@ -60,7 +61,7 @@ VX_HD_FN void fill_row(const TerrainTables& t, const Row<L>& row, const GroundTi
     load_attributes<L>(t, ground, row.index, inputs);
     inputs[kInputHeight] = L::load(ground.land + row.index);
 
-    const LayerStack<L> stack = layer_stack<L>(t, ground, row, inputs, fields);
+    const LayerStack<L> stack = layer_stack<L>(t, ground, row, inputs, strata);
     for (u32 l = 0; l < stack.count; ++l)
         paint<L>(out, row.index, stack.begin[l], lanes_most<L>(stack.begin[l + 1]), stack.block[l]);
     const I top = stack.begin[stack.count];

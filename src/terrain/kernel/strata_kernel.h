@@ -33,7 +33,7 @@ VX_HD typename L::I block_above(typename L::F v) {
 
 template <class L>
 VX_HD_FN LayerStack<L> layer_stack(const TerrainTables& t, const GroundTile& ground, const Row<L>& row,
-                                   const typename L::F* attribute, CoarseFields* fields) {
+                                   const typename L::F* attribute, CoarseStrata* coarse) {
     using F = typename L::F;
     const F zero = L::f(0.0f);
     F share[kStrataMost];
@@ -68,7 +68,7 @@ VX_HD_FN LayerStack<L> layer_stack(const TerrainTables& t, const GroundTile& gro
             continue;
         }
         if (!L::any(share[s] > zero)) continue;
-        const F t0 = stratum.thickness + stratum_noise<L>(t, s, row, fields) * stratum.amplitude;
+        const F t0 = stratum.thickness + stratum_noise<L>(t, s, row, coarse) * stratum.amplitude;
         thick[s] = greatest(t0, zero) * (share[s] * scale);
         if (!stratum.hung) stacked = stacked + thick[s];
     }
