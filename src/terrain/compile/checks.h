@@ -29,9 +29,9 @@ inline Result<> check_count(std::string_view what, std::size_t count, std::size_
     return fail(ErrorCode::limit, fmt::format("{} {}; at most {} are allowed", count, what, most));
 }
 
-// The comparison also refuses what is no number.
+// The comparison also refuses what is no number. Limits count as floats do: what content says in digits became a float.
 inline Result<> check_range(std::string_view row, std::string_view what, double v, double least, double most) {
-    if (v >= least && v <= most) return {};
+    if (v >= double(float(least)) && v <= double(float(most))) return {};
     return wrong(row, fmt::format("{} is {}; expected {} to {}", what, v, least, most));
 }
 

@@ -157,7 +157,7 @@ private:
     }
 
     Result<> layers() {
-        Names hung, loose;
+        VX_TRY(check_count("layers", d_.layers.size(), kStrataMost + kLooseMost));
         std::vector<const TerrainDescription::Layer*> strata;
         bool remainder = false;
         for (const bool hangs : {false, true})
@@ -476,6 +476,13 @@ private:
             const auto given = feature.numbers.find(number.name);
             r.numbers[i] = given == feature.numbers.end() ? number.fallback : given->second;
             VX_TRY(check_range(row, number.name, r.numbers[i], number.least, number.most));
+        }
+        // Builders draw from X_least to X_most, counts too: the other way round there is no such range.
+        for (u32 i = 0; i < kFeatureNumbers; ++i) {
+            if (!names[i].ends_with("_least")) continue;
+            const int most = index_of(names, names[i].substr(0, names[i].size() - 5) + "most");
+            if (most < 0) continue;
+            VX_TRY(check_range(row, names[i], r.numbers[i], info.numbers[i].least, r.numbers[std::size_t(most)]));
         }
         return {};
     }

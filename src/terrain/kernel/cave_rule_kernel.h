@@ -236,7 +236,8 @@ VX_HD_FN void cave_rules_row(const TerrainTables& t, const Row<L>& row, const Gr
                 if ((some >> i & 1) == 0 || y + i == kTerrainMinY) continue;
                 const U block = get<L>(out, row.index, y + i);
                 const auto there = (levels >> u32(i) & 1u) != L::u(0), changes = from.has(block);
-                auto hit = there & changes;
+                const auto ground_there = top > L::i(y + i); // a rule may take air, but not what lies above
+                auto hit = there & changes & ground_there;
                 if (!L::any(hit)) continue;
                 if (rule.veins != 0) {
                     if (!veins_known)
