@@ -26,7 +26,7 @@ for _, g in ipairs { { "jungle", { 74, 160, 48 } }, { "savanna", { 186, 168, 84 
 end
 
 -- Crystals: solid prisms that let light through and give back a little of their own.
-for _, c in ipairs { { "magenta", { 13, 7, 13 } }, { "cyan", { 7, 12, 13 } }, { "green", { 7, 13, 8 } } } do
+for _, c in ipairs { { "magenta", { 15, 9, 15 } }, { "cyan", { 9, 14, 15 } }, { "green", { 9, 15, 10 } } } do
   local name = c[1] .. "_crystal"
   block(V(name), { texture = name, material = "crystal", layer = "translucent", transparency = 0.45, opacity = 1, hardness = 1.5, light = c[2] })
   local shard = { material = "crystal", collision = false, sway = false, light = { c[2][1] // 2, c[2][2] // 2, c[2][3] // 2 } }
@@ -35,9 +35,9 @@ for _, c in ipairs { { "magenta", { 13, 7, 13 } }, { "cyan", { 7, 12, 13 } }, { 
 end
 
 -- Stormlight: a shell of dark glass around charged cores.
-block(V("stormlight"), { texture = "stormlight", material = "crystal", hardness = 1, light = { 12, 14, 15 } })
+block(V("stormlight"), { texture = "stormlight", material = "crystal", hardness = 1, light = { 13, 15, 15 } })
 define_texture("stormlight", { frame_time = 3 })
-block(V("stormlight_shell"), merge(STONE, { texture = "stormlight_shell", light = { 8, 10, 13 } }))
+block(V("stormlight_shell"), merge(STONE, { texture = "stormlight_shell", light = { 11, 13, 15 } }))
 plant(V("stormlight_tendril"), { sway = false, light = { 4, 6, 8 } })
 
 -- Trees.
