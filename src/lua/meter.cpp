@@ -30,7 +30,7 @@ void on_count(lua_State* state, lua_Debug*) {
 } // namespace
 
 void Meter::add_work(u64 amount) {
-    if (work == 0) cpu_start = cpu_now();
+    if (cpu_start < 0) cpu_start = cpu_now();
     work += amount;
     if (work > work_most && !exceeded) exceeded = "instruction";
 }

@@ -18,7 +18,7 @@ struct Meter {
     u64 work = 0;
     u64 bytes_handed_out = 0; // not yet charged
     u64 hooks = 0;
-    double cpu_start = 0;
+    double cpu_start = -1; // of the thread's clock at the first work; negative: none yet
     const char* exceeded = nullptr; // the limit that was passed; from then on nothing runs
 
     void add_work(u64 amount);

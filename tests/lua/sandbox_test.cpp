@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -48,6 +49,24 @@ TEST(Sandbox, RunsPlainLua) {
     EXPECT_EQ(text_of("select(2, xpcall(error, function(m) return m .. '!' end, 'x'))"), "x!");
     EXPECT_EQ(text_of("select(3, xpcall(function(a, b) return a, b end, print, 5, 6))"), "6");
     EXPECT_EQ(text_of("string.format('%d %5.2f %s', 3, 1.5, 'y')"), "3  1.50 y");
+}
+
+// The limit is on what scripts take, not on what their thread did before.
+TEST(Sandbox, ThreadsThatWorkedBeforeMayRunScripts) {
+    SandboxLimits limits = small();
+    limits.cpu_seconds_most = .15;
+    const auto cpu = [] {
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return double(t.tv_sec) + double(t.tv_nsec) * 1e-9;
+    };
+    while (cpu() < .2) {
+    }
+    auto made = Sandbox::create(limits);
+    ASSERT_TRUE(made);
+    (*made)->set_function("host", [](std::span<const Value>) -> Result<> { return {}; });
+    const Result<> run = (*made)->run("for i = 1, 20000 do end", "a.lua");
+    EXPECT_TRUE(run) << run.error().message;
 }
 
 TEST(Sandbox, ErrorsSayWhere) {
