@@ -1,5 +1,7 @@
-// Random text as content: never a crash, and whatever loads is a registry whose every block resolves.
+// Random text as content: never a crash, and whatever loads is a registry whose every block resolves, and terrain that
+// compiles or says why not.
 #include "script/content_loader.h"
+#include "terrain/compile/compile.h"
 #include "world/state_table.h"
 
 #include <cstdlib>
@@ -21,6 +23,10 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
         const auto id = table.intern(state);
         if (!id || table.info(*id).look == nullptr) std::abort();
         if (table.info(*id).look->opacity > 15) std::abort();
+    }
+    if (content->terrain) {
+        const auto terrain = compile_terrain(*content->terrain, size);
+        if (!terrain && terrain.error().message.empty()) std::abort();
     }
     return 0;
 }
