@@ -279,7 +279,7 @@ TEST_P(DrawShape, IsTheSameUnderEveryVectorSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DrawShape, ::testing::Range(0u, u32(Shape::count)),
-                         [](const auto& info) { return std::string(shape_infos()[info.param].name); });
+                         [](const auto& of) { return std::string(shape_infos()[of.param].name); });
 
 // True distances, in double precision, by other means than the kernel's: below 0 inside.
 double true_side(const Primitive& s, double x, double y, double z) {
@@ -440,7 +440,9 @@ TEST(Draw, BoxesHoldAllVoxels) {
                         ASSERT_TRUE(held) << "solid " << i32(s->solid) << " wobble " << wobble << " at " << x << ","
                                           << y << "," << z << " ra " << s->ra << " rb " << s->rb;
                     }
-            if (wobble == 0 && s->solid != Solid::box && s->ra > 1.5f && !(s->flags & solid_hollow)) EXPECT_GT(in, 0);
+            if (wobble == 0 && s->solid != Solid::box && s->ra > 1.5f && !(s->flags & solid_hollow)) {
+                EXPECT_GT(in, 0);
+            }
         }
     }
 }
