@@ -2,6 +2,8 @@
 // set and for one lane, heights inside the world, blocks that exist.
 #include "terrain/compile/compile.h"
 #include "terrain/cpu/stages.h"
+#include "terrain/generator.h"
+#include "terrain/kernel/cave_kernel.h"
 #include "terrain/kernel/fill_kernel.h"
 #include "terrain/kernel/land_kernel.h"
 #include "tests/terrain/random_description.h"
@@ -70,7 +72,9 @@ void expect_sane(const Column& c, const CompiledTerrain& made) {
     ASSERT_TRUE(c.blocks.top >= 0 && c.blocks.top <= kTerrainMaxY);
     for (i32 i = 0; i < kTerrainHeight * kColumnCells; ++i) {
         ASSERT_LT(c.blocks.block[i], made.block_names.size());
-        if (i >> 8 >= c.blocks.top) ASSERT_EQ(c.blocks.block[i], kAir);
+        if (i >> 8 >= c.blocks.top) {
+            ASSERT_EQ(c.blocks.block[i], kAir);
+        }
     }
     for (const u8 biome : c.biomes.biome)
         ASSERT_LT(biome, made.biome_names.size());
@@ -102,11 +106,18 @@ void expect_same(const Column& a, const Column& b, const TerrainTables& t) {
 void expect_same_alone(const Column& c, const TerrainTables& t, ColumnPos at) {
     using L = ScalarLanes;
     auto land = std::make_unique<LandTile>();
+    auto caves = std::make_unique<CaveTile>();
     auto filled = std::make_unique<BlockTile>();
+    const LatticeTile* own_lattice = c.lattice + Column::kPoints + 1;
+    const LatticeTile* const four[4] = {own_lattice, own_lattice + 1, own_lattice + Column::kPoints,
+                                        own_lattice + Column::kPoints + 1};
     const LandTile& own = c.land[(kGroundReach + 1) * Column::kLands + kGroundReach + 1];
     for (i32 i = 0; i < kColumnCells; i += 3) {
         land_row<L>(t, thread_row(at, i), *land);
         ASSERT_EQ(std::memcmp(&land->height[i], &own.height[i], sizeof(float)), 0);
+        cave_row<L>(t, c.ground[4], four, thread_row(at, i), ~u64(0), *caves);
+        for (i32 word = 0; word < kTerrainHeight / 32; ++word)
+            ASSERT_EQ(caves->open[word][i], c.caves[4].open[word][i]);
         fill_row<L>(t, thread_row(at, i), c.ground[4], c.caves[4], nullptr, nullptr, kTerrainHeight, *filled);
         for (i32 y = 0; y < kTerrainHeight; ++y)
             ASSERT_EQ(filled->block[y << 8 | i], c.filled.block[y << 8 | i]) << "y " << y << " column " << i;
@@ -154,6 +165,26 @@ TEST(HostileContent, HundredsOfRowsAreToldTheirLimit) {
     const auto made = compile_terrain(d, 1);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().code, ErrorCode::limit) << made.error().message;
+}
+
+// Where plants take every block there is still a place, found without making half the world.
+TEST(HostileContent, SpawnInAThicketIsAboveIt) {
+    TerrainDescription d = base_terrain();
+    d.decorators.clear();
+    for (const auto& biome : d.biomes)
+        d.decorators.push_back({.biome = biome.name,
+                                .place = "surface",
+                                .block = "minecraft:fern",
+                                .upper = "minecraft:fern",
+                                .chance = 1,
+                                .on = {"ground"}});
+    auto made = TerrainGenerator::create(d, 1);
+    ASSERT_TRUE(made) << made.error().message;
+    const BlockPos feet = spawn_point(**made);
+    const auto tile = (*made)->blocks(column_of(chunk_of(feet)));
+    for (i32 y = feet.y; y < kTerrainMaxY; ++y)
+        ASSERT_EQ(tile->block[y << 8 | (feet.z & 15) << 4 | (feet.x & 15)], kAir);
+    EXPECT_LT((*made)->cache_stats().misses, 60'000u);
 }
 
 } // namespace
