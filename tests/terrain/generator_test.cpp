@@ -149,25 +149,5 @@ TEST(Generator, SpawnIsDryAndOpen) {
     }
 }
 
-// Where plants take every block there is still a place, found without making half the world.
-TEST(Generator, SpawnInAThicketIsAboveIt) {
-    TerrainDescription d = base_terrain();
-    d.decorators.clear();
-    for (const auto& biome : d.biomes)
-        d.decorators.push_back({.biome = biome.name,
-                                .place = "surface",
-                                .block = "minecraft:fern",
-                                .upper = "minecraft:fern",
-                                .chance = 1,
-                                .on = {"ground"}});
-    auto made = TerrainGenerator::create(d, 1);
-    ASSERT_TRUE(made) << made.error().message;
-    const BlockPos feet = spawn_point(**made);
-    const auto tile = (*made)->blocks(column_of(chunk_of(feet)));
-    for (i32 y = feet.y; y < kTerrainMaxY; ++y)
-        ASSERT_EQ(tile->block[y << 8 | (feet.z & 15) << 4 | (feet.x & 15)], kAir);
-    EXPECT_LT((*made)->cache_stats().misses, 60'000u);
-}
-
 } // namespace
 } // namespace vitrail
