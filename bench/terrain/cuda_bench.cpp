@@ -52,7 +52,8 @@ void cuda(bench::Context& c, bool chunks) {
         for (i32 next = 0, done = 0; done < kBatches; ++done) {
             for (; next < kBatches && under_way.size() < (*maker)->max_batches(); ++next)
                 under_way.push_back((*maker)->submit({{next * side, 0}, side, side}).value());
-            for (const GeneratedColumn& column : (*maker)->collect(under_way.front(), palette).value())
+            const auto columns = (*maker)->collect(under_way.front(), palette).value();
+            for (const GeneratedColumn& column : columns)
                 n += filled(column);
             under_way.erase(under_way.begin());
         }

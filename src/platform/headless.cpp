@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -96,6 +97,11 @@ EGLContext make_context(EGLDisplay display, bool debug, bool only_software) {
 } // namespace
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create(bool debug) {
+    // epoxy ends the program where it finds no library, so it is looked for first.
+    if (void* egl = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL))
+        dlclose(egl);
+    else
+        return fail(ErrorCode::not_found, "this machine has no libEGL.so.1");
     const char* wanted = std::getenv("VITRAIL_GL");
     const bool only_software = wanted && std::strcmp(wanted, "software") == 0;
     std::string tried;
