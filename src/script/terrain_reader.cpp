@@ -18,10 +18,6 @@ namespace {
 constexpr std::size_t kLayersMost = kStrataMost + kLooseMost, kRulesOfOneMost = 24, kBandsMost = 32,
                       kColumnLayersMost = 8;
 
-constexpr const char* kFeaturePlaces[] = {"surface", "sea_floor", "sea_surface", "cave_floor", "cave_ceiling"};
-constexpr const char* kDecoratorPlaces[] = {"surface", "sea_floor", "cave_floor", "cave_ceiling"};
-constexpr const char* kCavePlaces[] = {"floor", "ceiling", "rock"};
-
 const Value kNothing;
 
 const Value& argument(std::span<const Value> arguments, std::size_t i) {

@@ -142,8 +142,10 @@ Read whole(int& out, int least, int most) {
 
 Read expression(std::string& out) {
     return [&out](const Value& value) -> Result<> {
-        if (value.is_number() && std::isfinite(value.number())) {
-            out = fmt::format("{:.9g}", value.number());
+        if (value.is_number() && std::abs(value.number()) <= 1e6) { // no exponent: the language knows none
+            out = fmt::format("{:.9f}", value.number());
+            out.erase(out.find_last_not_of('0') + 1);
+            if (out.back() == '.') out.pop_back();
             return {};
         }
         const std::string* text = value.string();

@@ -97,8 +97,7 @@ struct BlockSet {
 struct SurfaceRuleRow {
     u8 biome = 0;
     u8 bands = 0;      // length of `to` as repeating bands counted from `above`; 0: `to[0]` alone
-    u8 top_only = 0;   // only the topmost `depth` blocks of the ground
-    i16 depth = 0;     // blocks; 0: any
+    i16 depth = 0;     // only so many blocks from the surface down; 0: any
     BlockSet from;
     Program above, below; // y >= above, y < below; programs of count 0 do not limit
     float chance = 1;     // of each block
@@ -106,6 +105,7 @@ struct SurfaceRuleRow {
     Block to[32] = {};
 };
 
+inline constexpr const char* kCavePlaces[] = {"floor", "ceiling", "rock"}; // as content names them
 enum class CavePlace : u8 { floor, ceiling, rock }; // the `depth` blocks under a floor, over a ceiling; all of the biome's rock
 struct CaveRuleRow {
     u8 biome = 0;
@@ -119,6 +119,7 @@ struct CaveRuleRow {
     RandomKey key;
 };
 
+inline constexpr const char* kFeaturePlaces[] = {"surface", "sea_floor", "sea_surface", "cave_floor", "cave_ceiling"};
 enum class FeaturePlace : u8 { surface, sea_floor, sea_surface, cave_floor, cave_ceiling };
 enum class Shape : u8 {
     coral, kelp, iceberg, acacia, redwood, cypress, birch, pine, shrub, rafflesia, jungle_tree, small_jungle_tree,
@@ -132,7 +133,6 @@ struct FeatureRow {
     Shape shape = Shape::coral;
     FeaturePlace place = FeaturePlace::surface;
     u8 biome = 0;          // surface biome, or cave biome where the place is in a cave
-    u8 priority = 0;       // unused ties go by row
     u16 cell = 16, padding = 0; // blocks
     float chance = 1;      // times the biome's weight
     u32 layers = 0;        // which loose layers (bits) may be the topmost one at the place; 0: any ground
@@ -147,6 +147,7 @@ struct FeatureRow {
     Block blocks[kFeatureBlocks] = {};
 };
 
+inline constexpr const char* kDecoratorPlaces[] = {"surface", "sea_floor", "cave_floor", "cave_ceiling"};
 enum class DecoratorPlace : u8 { surface, sea_floor, cave_floor, cave_ceiling };
 struct DecoratorRow {
     u8 biome = 0;

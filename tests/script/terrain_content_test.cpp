@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,6 +58,19 @@ TEST(TerrainContent, NothingSaidIsNoTerrain) {
     ASSERT_TRUE(content);
     EXPECT_EQ(content->terrain, nullptr);
     EXPECT_NE(content->registry, nullptr);
+}
+
+// Lua writes small numbers with an exponent, which expressions do not know.
+TEST(TerrainContent, PlainNumbersBecomeExpressions) {
+    for (const auto& [lua, text] : {std::pair{"1e-5", "0.00001"}, {"-12.5", "-12.5"}, {"1000000", "1000000"}}) {
+        const auto content =
+            load(fmt::format("define_terrain_biome('test:land', {{ wants = '-', height = {} }})", lua));
+        ASSERT_TRUE(content) << content.error().message;
+        EXPECT_EQ(content->terrain->biomes.back().height, text);
+        EXPECT_TRUE(compile_terrain(*content->terrain, 1));
+    }
+    EXPECT_THAT(error_of("define_terrain_biome('test:land', { wants = '-', height = 1e300 })"),
+                HasSubstr("height: expected an expression"));
 }
 
 TEST(TerrainContent, ReadsEveryKey) {

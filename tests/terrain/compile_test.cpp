@@ -138,7 +138,6 @@ TEST(CompileTerrain, EveryRowLandsInItsTable) {
     EXPECT_EQ(t.surface_rules, 1u);
     EXPECT_TRUE(t.surface_rule[0].from.has(t.loose_layer[0].block));
     EXPECT_FALSE(t.surface_rule[0].from.has(t.stratum[0].block));
-    EXPECT_EQ(t.surface_rule[0].top_only, 1);
     EXPECT_EQ(t.cave_biomes, 2u);
     EXPECT_EQ(t.cave_attribute[0].with_depth, 1.0f);
     EXPECT_EQ(t.cave_rules, 1u);

@@ -168,9 +168,8 @@ private:
         return r;
     }
     TerrainDescription::CaveRule cave_rule() {
-        static constexpr const char* places[] = {"floor", "ceiling", "rock"};
         TerrainDescription::CaveRule r;
-        r.place = one_of(places);
+        r.place = one_of(kCavePlaces);
         r.from = from();
         r.to = block();
         r.depth = 1 + i32(rng_.below(64));
@@ -182,12 +181,11 @@ private:
         return r;
     }
     TerrainDescription::Feature feature(const TerrainDescription& d, u32 number) {
-        static constexpr const char* places[] = {"surface", "sea_floor", "sea_surface", "cave_floor", "cave_ceiling"};
         TerrainDescription::Feature f;
         const ShapeInfo& info = shape_infos()[rng_.below(u32(shape_infos().size()))];
         f.name = fmt::format("x:f{}", number);
         f.shape = info.name;
-        f.place = d.cave_biomes.empty() ? places[rng_.below(3)] : one_of(places);
+        f.place = d.cave_biomes.empty() ? kFeaturePlaces[rng_.below(3)] : one_of(kFeaturePlaces);
         const bool cave = f.place.starts_with("cave");
         f.biome = cave ? d.cave_biomes[rng_.below(u32(d.cave_biomes.size()))].name
                        : d.biomes[rng_.below(u32(d.biomes.size()))].name;
@@ -210,9 +208,8 @@ private:
         return f;
     }
     TerrainDescription::Decorator decorator(const TerrainDescription& d) {
-        static constexpr const char* places[] = {"surface", "sea_floor", "cave_floor", "cave_ceiling"};
         TerrainDescription::Decorator out;
-        out.place = d.cave_biomes.empty() ? places[rng_.below(2)] : one_of(places);
+        out.place = d.cave_biomes.empty() ? kDecoratorPlaces[rng_.below(2)] : one_of(kDecoratorPlaces);
         out.biome = out.place.starts_with("cave") ? d.cave_biomes[rng_.below(u32(d.cave_biomes.size()))].name
                                                   : d.biomes[rng_.below(u32(d.biomes.size()))].name;
         out.block = block();

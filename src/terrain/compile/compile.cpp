@@ -17,10 +17,6 @@ namespace {
 
 using namespace compile_detail;
 
-constexpr const char* kFeaturePlaces[] = {"surface", "sea_floor", "sea_surface", "cave_floor", "cave_ceiling"};
-constexpr const char* kDecoratorPlaces[] = {"surface", "sea_floor", "cave_floor", "cave_ceiling"};
-constexpr const char* kCavePlaces[] = {"floor", "ceiling", "rock"};
-
 class Compiler {
 public:
     Compiler(const TerrainDescription& description, u64 seed)
@@ -329,7 +325,6 @@ private:
         VX_TRY(check_range(row, "depth", rule.depth, 0, kTerrainHeight));
         VX_TRY(check_range(row, "chance", rule.chance, 0, 1));
         r.depth = i16(rule.depth);
-        r.top_only = rule.depth > 0 ? 1 : 0;
         r.chance = rule.chance;
         r.key = key(same, number);
         if (rule.bands.empty()) {

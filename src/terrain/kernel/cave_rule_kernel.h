@@ -66,7 +66,7 @@ VX_HD void find_weights(const TerrainTables& t, i32 y, CaveDraw<L>& d) {
 template <class L>
 VX_HD typename L::U draw(const TerrainTables& t, i32 y, const CaveDraw<L>& d) {
     using M = typename L::M;
-    const typename L::F drawn = unit_of(mix_bits(d.bits + u32(y) * 0xc2b2ae3du)) * d.sum;
+    const typename L::F drawn = unit_of(random_at(d.bits, u32(y))) * d.sum;
     typename L::U picked = L::u(0);
     M passed = d.sum > L::f(0.0f);
     for (u32 b = 0; b < t.cave_biomes; ++b) {

@@ -104,7 +104,7 @@ VX_HD_FN i32 decorate_caves(const TerrainTables& t, const DecoratorIndex& index,
             ends = open & ~(open >> 1 | (w + 1 < words ? caves.open[w + 1][column] << 31 : 0));
         for (; ends != 0; ends &= ends - 1) {
             const i32 y = (w << 5) + cave_detail::trailing_zeros(ends);
-            const float unit = unit_of(mix_bits(bits + u32(y) * 0xc2b2ae3du));
+            const float unit = unit_of(random_at(bits, u32(y)));
             if (!(unit < most) || tile.block[(y << 8) + column] != kAir) continue;
             const u32 biome = cave_biome_at<L>(t, ground, caves, at, column, y);
             if (!(unit < index.total[u32(place)][biome])) continue;

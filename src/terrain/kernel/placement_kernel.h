@@ -77,27 +77,15 @@ VX_HD bool biome_possible(const TerrainTables& t, u32 biome, const AttributeRang
     return true;
 }
 
-VX_HD float biome_product(const i8* wants, u32 attributes, const float* value) {
-    float w = 1.0f;
-    for (u32 a = 0; a < attributes; ++a) {
-        if (wants[a] > 0) w = w * value[a];
-        if (wants[a] < 0) w = w * (1.0f - value[a]);
-    }
-    return w;
-}
-
 // Share of one biome among all at a block column, 0..1.
 template <class L>
 VX_HD_FN float surface_share(const TerrainTables& t, const GroundTile& ground, u32 biome, i32 index) {
     float value[kAttributesMost];
     for (u32 a = 0; a < t.attributes; ++a)
         value[a] = ground.attribute[a][index];
-    const float own = biome_product(t.biome[biome].wants, t.attributes, value);
+    const float own = surface_weight<L>(t, biome, value);
     if (!(own > 0.0f)) return 0.0f;
-    float sum = 0.0f;
-    for (u32 b = 0; b < t.biomes; ++b)
-        sum = sum + biome_product(t.biome[b].wants, t.attributes, value);
-    return own / sum;
+    return own / surface_weight_sum<L>(t, value);
 }
 // The same of a cave biome at a block.
 template <class L>
@@ -105,12 +93,9 @@ VX_HD_FN float cave_share(const TerrainTables& t, const GroundTile& ground, cons
                           i32 y) {
     float value[kAttributesMost];
     cave_attributes_at<L>(t, ground, caves, index, y, value);
-    const float own = biome_product(t.cave_biome[biome].wants, t.cave_attributes, value);
+    const float own = cave_weight<L>(t, biome, value);
     if (!(own > 0.0f)) return 0.0f;
-    float sum = 0.0f;
-    for (u32 b = 0; b < t.cave_biomes; ++b)
-        sum = sum + biome_product(t.cave_biome[b].wants, t.cave_attributes, value);
-    return own / sum;
+    return own / cave_weight_sum<L>(t, value);
 }
 
 // Whether the topmost loose layer is one of the row's and thick enough.

@@ -32,9 +32,14 @@ template <class U>
 VX_HD U random_bits(RandomKey key, U x, U z) {
     return mix_bits(mix_bits(x * 0x9e3779b1u + key.a) ^ (z * 0x85ebca77u + key.b));
 }
+// The same in three dimensions, in two steps where many blocks of a block column are asked: random_at(random_bits(key, x, z), y).
+template <class U, class Y>
+VX_HD U random_at(U bits, Y y) {
+    return mix_bits(bits + y * 0xc2b2ae3du);
+}
 template <class U>
 VX_HD U random_bits(RandomKey key, U x, U y, U z) {
-    return mix_bits(random_bits(key, x, z) + y * 0xc2b2ae3du);
+    return random_at(random_bits(key, x, z), y);
 }
 // Bits that most blocks of a clump share: those of a cell of 8 x 8 blocks, looked up at a place up to 3 blocks away. What is
 // mixed by them meets in ragged clumps, where bits of each block would make grains of salt and pepper. Uniform for every place,

@@ -72,7 +72,7 @@ struct SetProbe {
 // Blocks whose random number is below the chance; bits: random_bits of the block column.
 template <class L>
 VX_HD auto drawn(typename L::U bits, i32 y, float chance) {
-    return unit_of(mix_bits(bits + u32(y) * 0xc2b2ae3du)) < L::f(chance);
+    return unit_of(random_at(bits, u32(y))) < L::f(chance);
 }
 
 VX_HD bool has_water(const BlockSet& set) {
