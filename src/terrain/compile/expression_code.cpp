@@ -125,7 +125,9 @@ private:
         for (u32 i = 0; i < count; ++i)
             needs[i] = need_[of[i]];
         if (node.call == Call::warp) return std::max({needs[0], needs[1] + 1, needs[2]});
-        std::sort(needs, needs + count, std::greater<>());
+        if (needs[0] < needs[1]) std::swap(needs[0], needs[1]); // the largest first; unused ones are 0
+        if (needs[1] < needs[2]) std::swap(needs[1], needs[2]);
+        if (needs[0] < needs[1]) std::swap(needs[0], needs[1]);
         u32 most = node.call == Call::cube ? 2 : 1;
         for (u32 i = 0; i < count; ++i)
             most = std::max(most, needs[i] + i);
