@@ -63,6 +63,8 @@ void frame(bench::Context& context, u32 view_distance, bool memory) {
 
 } // namespace
 
+void register_fly_benches(bench::Suite& suite); // fly_bench.cpp
+
 void register_client_benches(bench::Suite& suite) {
     suite.add("frame.raster.6", "ms", "854x480, low preset, 6 chunks of a real world",
               [](bench::Context& c) { frame(c, 6, false); });
@@ -70,4 +72,5 @@ void register_client_benches(bench::Suite& suite) {
               [](bench::Context& c) { frame(c, 12, false); });
     suite.add("frame.memory.12", "MB", "the whole process with that view, resident: server, replica, content, meshes, software OpenGL; run it alone",
               [](bench::Context& c) { frame(c, 12, true); });
+    register_fly_benches(suite);
 }

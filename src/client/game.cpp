@@ -16,8 +16,6 @@
 
 namespace vitrail::client {
 
-// Milliseconds a frame that uploads may take.
-static constexpr double kUploadBudgetMs = 3;
 static void take_screenshot(GameState& state) {
     render::Image image;
     image.width = state.window->width();
@@ -131,7 +129,7 @@ static void update_world(GameState& state, float seconds) {
     const CameraPose pose = camera(state);
     state.hit = pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree), kReach);
     act_on_world(state);
-    state.feeder->update(replica, block_of(pose.eye.at), kUploadBudgetMs);
+    state.feeder->update(replica, block_of(pose.eye.at), feed_budget_ms(seconds));
 }
 
 static Result<> draw(GameState& state) {

@@ -3,6 +3,8 @@
 #include "base/clock.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace vitrail::client {
 
@@ -10,9 +12,17 @@ namespace vitrail::client {
 // waits (an edit) nothing is delayed.
 static constexpr u64 kQuietNs = 60'000'000;
 static constexpr u32 kFewSections = 96;
-static constexpr u32 kMostInFlight = 48;
+// Bounds of in_flight_most_; at 60 frames a second the least is plenty.
+static constexpr u32 kInFlightLeast = 48, kInFlightMost = 512;
+static constexpr std::size_t kJobsBetweenClocks = 16;
+static constexpr double kBudgetMs = 3, kBudgetShare = 0.08, kBudgetMsMost = 20;
 
-SectionFeeder::SectionFeeder(render::Renderer& renderer, ThreadPool& pool) : renderer_(renderer), pool_(pool) {}
+double feed_budget_ms(double frame_seconds) {
+    return std::clamp(frame_seconds * 1000 * kBudgetShare, kBudgetMs, kBudgetMsMost);
+}
+
+SectionFeeder::SectionFeeder(render::Renderer& renderer, ThreadPool& pool)
+    : renderer_(renderer), pool_(pool), in_flight_most_(kInFlightLeast) {}
 
 SectionFeeder::~SectionFeeder() { pool_.wait_idle(); }
 
@@ -20,9 +30,15 @@ void SectionFeeder::mark(ChunkPos at, bool mesh, u64 now) {
     const auto it = sections_.find(at);
     if (it == sections_.end()) return;
     Section& s = it->second;
+    if (!mesh && !s.draws && !s.mesh && !s.in_flight) return;
     if (!s.mesh && !s.light) ++waiting_;
     (mesh ? s.mesh : s.light) = true;
     s.dirty_since_ns = now;
+}
+
+void SectionFeeder::mark_by_neighbor(ChunkPos at, u64 now) {
+    const auto it = sections_.find(at);
+    if (it != sections_.end() && !it->second.air) mark(at, true, now);
 }
 
 static i64 distance_squared(ChunkPos a, ChunkPos b) {
@@ -46,7 +62,8 @@ void SectionFeeder::update(replica::Replica& replica, BlockPos eye, double budge
         }
         if (dirty.what & (replica::kBlocksChanged | replica::kLightChanged)) sections_.try_emplace(dirty.at);
         // The replica names the neighbors whose meshes or light a change reaches, so nothing is widened here.
-        if (dirty.what & (replica::kBlocksChanged | replica::kBorderBlocks)) mark(dirty.at, true, start);
+        if (dirty.what & replica::kBlocksChanged) mark(dirty.at, true, start);
+        else if (dirty.what & replica::kBorderBlocks) mark_by_neighbor(dirty.at, start);
         else mark(dirty.at, false, start);
     }
     if (tints_.size() != replica.biomes().size()) {
@@ -57,23 +74,33 @@ void SectionFeeder::update(replica::Replica& replica, BlockPos eye, double budge
         }
     }
     models_.ensure(*replica.states());
-    if (waiting_ > 0) start_jobs(replica, eye, start);
+    take_answers();
+    if (waiting_ > 0) start_jobs(replica, eye, start, budget_ms / 3);
 
-    if (taken_.empty()) {
-        std::lock_guard lock(shared_->mutex);
-        taken_.swap(shared_->ready);
-    }
     renderer_.sync_models(models_); // meshing may have interned liquid quads
     std::size_t done = 0;
     while (done < taken_.size() && (done == 0 || seconds_since(start) * 1e3 < budget_ms)) upload(taken_[done++]);
     taken_.erase(taken_.begin(), taken_.begin() + std::ptrdiff_t(done));
 }
 
-void SectionFeeder::start_jobs(replica::Replica& replica, BlockPos eye, u64 now) {
-    if (in_flight_ >= kMostInFlight) return;
+void SectionFeeder::take_answers() {
+    const std::size_t left = taken_.size();
+    {
+        std::lock_guard lock(shared_->mutex);
+        std::move(shared_->ready.begin(), shared_->ready.end(), std::back_inserter(taken_));
+        shared_->ready.clear();
+    }
+    if (left > 0) return; // uploading is what takes longest
+    // All made: the workers may have waited for us. Less than half: nearer sections had better not stand in line.
+    if (in_flight_ >= in_flight_most_ && taken_.size() >= in_flight_) in_flight_most_ = std::min(in_flight_most_ * 2, kInFlightMost);
+    else if (taken_.size() < in_flight_ / 2) in_flight_most_ = std::max(in_flight_most_ / 2, kInFlightLeast);
+}
+
+void SectionFeeder::start_jobs(replica::Replica& replica, BlockPos eye, u64 now, double budget_ms) {
     struct Candidate {
         i64 distance;
         ChunkPos at;
+        bool operator<(const Candidate& other) const { return distance > other.distance; } // heaps give the nearest
     };
     std::vector<Candidate> candidates;
     const ChunkPos center = chunk_of(eye);
@@ -83,69 +110,84 @@ void SectionFeeder::start_jobs(replica::Replica& replica, BlockPos eye, u64 now)
         if (!few && now - s.dirty_since_ns < kQuietNs) continue;
         candidates.push_back({distance_squared(at, center), at});
     }
-    const std::size_t room = std::min<std::size_t>(kMostInFlight - in_flight_, candidates.size());
-    std::partial_sort(candidates.begin(), candidates.begin() + std::ptrdiff_t(room), candidates.end(),
-                      [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
-    for (std::size_t i = 0; i < room; ++i) {
-        const ChunkPos at = candidates[i].at;
+    std::make_heap(candidates.begin(), candidates.end());
+    const u64 begin = now_ns();
+    for (std::size_t looked = 1; !candidates.empty() && in_flight_ < in_flight_most_; ++looked) {
+        if (looked % kJobsBetweenClocks == 0 && seconds_since(begin) * 1e3 > budget_ms) break;
+        std::pop_heap(candidates.begin(), candidates.end());
+        const auto [distance, at] = candidates.back();
+        candidates.pop_back();
         Section& s = sections_[at];
-        std::array<ChunkPtr, 27> around;
-        for (i32 dx = -1; dx <= 1; ++dx)
-            for (i32 dy = -1; dy <= 1; ++dy)
-                for (i32 dz = -1; dz <= 1; ++dz)
-                    around[render::MeshInput::index(dx, dy, dz)] = replica.dimension().find({at.x + dx, at.y + dy, at.z + dz});
+        const bool mesh = std::exchange(s.mesh, false);
+        s.light = false;
         --waiting_;
-        if (!around[render::MeshInput::kCenter]) {
-            s.mesh = s.light = false;
+        const ChunkPtr chunk = replica.dimension().find(at);
+        if (!chunk) continue;
+        render::MeshInput alone;
+        alone.chunks[render::MeshInput::kCenter] = chunk.get();
+        alone.models = &models_;
+        alone.absent_is_opaque = false; // so that only air draws nothing
+        if (mesh && chunk->blocks.uniform() && render::draws_nothing(alone)) {
+            render::mesh_section(alone, no_mesh_, scratch_);
+            renderer_.set_section(at, dimension_, no_mesh_);
+            s.draws = false, s.air = true;
+            ++without_job_;
             continue;
         }
-        const bool mesh = s.mesh;
-        s.mesh = s.light = false;
-        s.in_flight = true;
+        s.in_flight = true, s.air = false;
         ++in_flight_;
-        // Above the dimension there is open air, not the unknown: tops of the highest sections are drawn.
-        static const ChunkPtr kOpenAir = [] {
-            auto air = std::make_shared<Chunk>();
-            air->light = std::make_shared<LightVolume>(Light(15, 0, 0, 0));
-            return air;
-        }();
-        if ((at.y + 1) * 16 >= replica.dimension().info().max_y)
-            for (i32 dx = -1; dx <= 1; ++dx)
-                for (i32 dz = -1; dz <= 1; ++dz) around[render::MeshInput::index(dx, 1, dz)] = kOpenAir;
-        pool_.submit(
-            [at, mesh, around = std::move(around), models = &models_, tints = tints_, shared = shared_] {
-                static thread_local render::MeshScratch scratch;
-                render::MeshInput input;
-                for (std::size_t k = 0; k < 27; ++k) input.chunks[k] = around[k].get();
-                input.models = models;
-                Answer answer;
-                answer.at = at;
-                answer.has_mesh = mesh;
-                if (mesh) {
-                    render::mesh_section(input, answer.mesh, scratch);
-                    answer.mesh.quads.shrink_to_fit();
-                    answer.tints = render::build_tint_grid(input, tints);
-                }
-                answer.light_needed = !mesh || !answer.mesh.empty();
-                if (answer.light_needed) {
-                    answer.brick = std::make_unique<render::LightBrick>();
-                    render::build_light_brick(input, *answer.brick);
-                }
-                std::lock_guard lock(shared->mutex);
-                shared->ready.push_back(std::move(answer));
-            },
-            candidates[i].distance);
+        submit(replica, at, s.job = ++jobs_, mesh, distance);
     }
+}
+
+void SectionFeeder::submit(const replica::Replica& replica, ChunkPos at, u64 job, bool mesh, i64 priority) {
+    std::array<ChunkPtr, 27> around;
+    for (i32 dx = -1; dx <= 1; ++dx)
+        for (i32 dy = -1; dy <= 1; ++dy)
+            for (i32 dz = -1; dz <= 1; ++dz)
+                around[render::MeshInput::index(dx, dy, dz)] = replica.dimension().find({at.x + dx, at.y + dy, at.z + dz});
+    // Above the dimension there is open air, not the unknown: tops of the highest sections are drawn.
+    static const ChunkPtr kOpenAir = [] {
+        auto air = std::make_shared<Chunk>();
+        air->light = std::make_shared<LightVolume>(Light(15, 0, 0, 0));
+        return air;
+    }();
+    if ((at.y + 1) * 16 >= replica.dimension().info().max_y)
+        for (i32 dx = -1; dx <= 1; ++dx)
+            for (i32 dz = -1; dz <= 1; ++dz) around[render::MeshInput::index(dx, 1, dz)] = kOpenAir;
+    pool_.submit(
+        [at, job, mesh, around = std::move(around), models = &models_, tints = tints_, shared = shared_] {
+            static thread_local render::MeshScratch scratch;
+            render::MeshInput input;
+            for (std::size_t k = 0; k < 27; ++k) input.chunks[k] = around[k].get();
+            input.models = models;
+            Answer answer;
+            answer.at = at;
+            answer.job = job;
+            answer.has_mesh = mesh;
+            if (mesh) render::mesh_section(input, answer.mesh, scratch);
+            answer.mesh.quads.shrink_to_fit();
+            answer.light_needed = !mesh || !answer.mesh.empty();
+            if (answer.light_needed) {
+                if (mesh) answer.tints = render::build_tint_grid(input, tints);
+                answer.brick = std::make_unique<render::LightBrick>();
+                render::build_light_brick(input, *answer.brick);
+            }
+            std::lock_guard lock(shared->mutex);
+            shared->ready.push_back(std::move(answer));
+        },
+        priority);
 }
 
 void SectionFeeder::upload(const Answer& answer) {
     const auto it = sections_.find(answer.at);
-    if (it == sections_.end()) return; // gone meanwhile
+    if (it == sections_.end() || it->second.job != answer.job) return; // gone meanwhile
     Section& s = it->second;
     if (s.in_flight) --in_flight_;
     s.in_flight = false;
     if (answer.has_mesh) {
         renderer_.set_section(answer.at, dimension_, answer.mesh);
+        s.draws = !answer.mesh.empty();
         ++meshed_;
     }
     if (answer.light_needed && answer.brick && renderer_.has_section(answer.at, dimension_)) {
@@ -166,6 +208,8 @@ FeederStats SectionFeeder::stats() const {
     s.in_flight = in_flight_;
     s.meshed = meshed_;
     s.uploaded = uploaded_;
+    s.without_job = without_job_;
+    s.in_flight_most = in_flight_most_;
     return s;
 }
 

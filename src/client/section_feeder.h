@@ -1,8 +1,11 @@
 // SectionFeeder: keeps the renderer's sections equal to the replica's world. Dirty sections are meshed by workers from
 // snapshots, nearest first, and uploaded on the main thread within a budget, so that no frame waits for a burst.
 //
+// Sections of air need no job. As many sections are given to the workers as they make in a frame, so that slow frames do
+// not leave them idle while land comes in.
+//
 //     SectionFeeder feeder(renderer, pool);
-//     each frame: feeder.update(replica, eye, budget_ms);
+//     each frame: feeder.update(replica, eye, feed_budget_ms(seconds));
 //     a still picture: while (!feeder.settled()) feeder.update(...);
 #pragma once
 
@@ -20,9 +23,15 @@
 
 namespace vitrail::client {
 
+// Milliseconds that `update` may take in a frame, after one of `frame_seconds`: little, but of slow frames a share, else
+// land would come the slower the slower the machine draws.
+double feed_budget_ms(double frame_seconds);
+
 struct FeederStats {
     u32 waiting = 0, in_flight = 0;
-    u64 meshed = 0, uploaded = 0, quads = 0;
+    u32 in_flight_most = 0;               // as of now; follows what the workers make in a frame
+    u64 meshed = 0, uploaded = 0, quads = 0; // meshed: by workers
+    u64 without_job = 0;                  // of air: nothing to draw
 };
 
 class SectionFeeder {
@@ -32,8 +41,8 @@ public:
     SectionFeeder(const SectionFeeder&) = delete;
     SectionFeeder& operator=(const SectionFeeder&) = delete;
 
-    // Takes the replica's dirty sections, starts jobs nearest to `eye` first, uploads what is ready for at most
-    // budget_ms (but at least one section, so that it always goes on).
+    // Takes the replica's dirty sections, starts jobs nearest to `eye` first for at most a third of budget_ms, uploads
+    // what is ready until budget_ms are over (but at least one section, so that it always goes on).
     void update(replica::Replica& replica, BlockPos eye, double budget_ms);
     // Nothing waits, runs or lies ready.
     bool settled() const;
@@ -45,10 +54,14 @@ private:
     struct Section {
         bool mesh = false, light = false; // what waits to be done
         bool in_flight = false;
+        u64 job = 0; // the last one begun; an answer of another is of a section that went and came again
+        bool air = false;  // uploaded as such: only its own blocks can change that
+        bool draws = true; // false: what is uploaded has no quads, so its light matters to nobody
         u64 dirty_since_ns = 0;
     };
     struct Answer {
         ChunkPos at;
+        u64 job = 0;
         bool has_mesh = false, light_needed = false;
         render::SectionMesh mesh;
         std::unique_ptr<render::LightBrick> brick;
@@ -59,7 +72,10 @@ private:
         std::vector<Answer> ready;
     };
     void mark(ChunkPos at, bool mesh, u64 now);
-    void start_jobs(replica::Replica& replica, BlockPos eye, u64 now);
+    void mark_by_neighbor(ChunkPos at, u64 now);
+    void take_answers();
+    void start_jobs(replica::Replica& replica, BlockPos eye, u64 now, double budget_ms);
+    void submit(const replica::Replica& replica, ChunkPos at, u64 job, bool mesh, i64 priority);
     void upload(const Answer& answer);
 
     render::Renderer& renderer_;
@@ -70,8 +86,10 @@ private:
     std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
     std::vector<Answer> taken_;
     DimensionId dimension_{};
-    u32 waiting_ = 0, in_flight_ = 0;
-    u64 meshed_ = 0, uploaded_ = 0;
+    u32 waiting_ = 0, in_flight_ = 0, in_flight_most_;
+    u64 meshed_ = 0, uploaded_ = 0, without_job_ = 0, jobs_ = 0;
+    render::MeshScratch scratch_; // for sections without a job
+    render::SectionMesh no_mesh_;
 };
 
 } // namespace vitrail::client

@@ -58,7 +58,7 @@ void Server::connect(std::unique_ptr<net::Transport> transport) {
 }
 
 void Server::tick_once() {
-    const u64 start = now_ns();
+    const u64 start = now_ns(), start_cpu = thread_time_ns();
     {
         std::lock_guard lock(arrivals_mutex_);
         for (auto& transport : arrivals_) {
@@ -75,6 +75,8 @@ void Server::tick_once() {
     stats.ticks = world_->tick;
     stats.tick_ms = float(seconds_since(start) * 1000);
     stats.tick_ms_max = world_->tick % 100 == 0 ? stats.tick_ms : std::max(stats.tick_ms_max, stats.tick_ms);
+    world_->tick_times.add(stats.tick_ms, float(thread_time_ns() - start_cpu) * 1e-6f);
+    if (world_->tick % kTicksASecond == 0) stats.tick_times = world_->tick_times.distribution();
     stats.sessions = u32(world_->sessions.size());
     stats.columns = stats.chunks = stats.columns_waiting = 0;
     for (const auto& [id, dimension] : world_->dimensions) {

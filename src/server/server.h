@@ -17,6 +17,7 @@
 #include "net/transport.h"
 #include "pipeline/generation_scheduler.h"
 #include "script/content_loader.h"
+#include "server/tick_times.h"
 #include "voxel/coords.h"
 
 #include <atomic>
@@ -59,6 +60,7 @@ struct ServerOptions {
 struct ServerStats {
     u64 ticks = 0;
     float tick_ms = 0, tick_ms_max = 0; // the last, and the longest of the last 100
+    TickDistribution tick_times;        // of the last half minute; found anew every 20 ticks
     u32 sessions = 0, columns = 0, chunks = 0, columns_waiting = 0;
     u64 sections_sent = 0, bytes_sent = 0, save_pending_bytes = 0;
     bool idle = false; // every session has all it can see, and has said so; nothing loads (at least one session)

@@ -65,6 +65,7 @@ struct ServerWorld {
     u32 next_session = 1;
     u64 tick = 0;
     ServerStats stats;
+    TickTimes tick_times;
     // Last, so that it ends first: its tasks use what stands above.
     std::unique_ptr<ThreadPool> pool;
 
