@@ -168,12 +168,22 @@ Result<> Replica::take(net::AirSections& message) {
 
 Result<> Replica::take(net::SectionsGone& message) {
     VX_TRY(check_dimension(message.dimension));
+    std::unordered_set<ColumnPos> columns;
     for (const net::WireChunkPos& p : message.at) {
         const ChunkPos at = net::from_wire(p);
         server_chunks_.erase(at);
         if (!dimension_->find(at)) continue;
         dimension_->erase(at);
         mark(at, kGone);
+        columns.insert(column_of(at));
+    }
+    // The server tells heights again with a column's first section, so those of columns left behind would only grow.
+    const DimensionInfo& info = dimension_->info();
+    for (const ColumnPos at : columns) {
+        bool held = server_heights_.contains(at);
+        for (i32 y = info.min_y >> 4; y < info.max_y >> 4 && !held; ++y)
+            held = dimension_->find({at.x, y, at.z}) != nullptr;
+        if (!held) dimension_->erase_heights(at);
     }
     return {};
 }

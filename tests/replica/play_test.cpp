@@ -293,6 +293,9 @@ TEST(Play, WalkingLoadsAheadAndLetsGoBehind) {
     Play play("endless");
     auto& ann = play.join("ann", 3);
     const std::size_t columns = play.dimension().columns.size();
+    const ColumnPos start = column_of(chunk_of(block_of(ann.body().feet.at)));
+    ASSERT_NE(ann.dimension().heights(start), nullptr);
+    const ColumnHeights heights = *ann.dimension().heights(start);
     for (int i = 0; i < 10; ++i) {
         play.session("ann").body.feet.at.x += 16 * kFixedOne;
         play.tick(4);
@@ -301,6 +304,17 @@ TEST(Play, WalkingLoadsAheadAndLetsGoBehind) {
     play.tick(25);
     EXPECT_LT(play.dimension().columns.size(), columns * 3);
     EXPECT_LT(ann.dimension().chunks().size(), std::size_t(11 * 11 * 24));
+    expect_equal_surface(play, ann);
+    for (i32 dx = -3; dx <= 3; ++dx)
+        EXPECT_EQ(ann.dimension().heights({start.x + dx, start.z}), nullptr) << "memory must not grow with the way";
+    EXPECT_NE(ann.dimension().heights({start.x + 10, start.z}), nullptr);
+    for (int i = 0; i < 10; ++i) {
+        play.session("ann").body.feet.at.x -= 16 * kFixedOne;
+        play.tick(4);
+    }
+    play.settle();
+    ASSERT_NE(ann.dimension().heights(start), nullptr) << "told again";
+    EXPECT_EQ(ann.dimension().heights(start)->above, heights.above);
     expect_equal_surface(play, ann);
 }
 
