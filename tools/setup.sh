@@ -2,7 +2,7 @@
 vitrail_setup() {
     local wanted missing=() status
     wanted=$(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' packages.txt)
-    status=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | awk '$2 == "installed" {print $1}')
+    status=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | awk '$2 == "installed" {print $1}') || true # it fails where it knows one not
     for package in $wanted; do
         grep -qxF "$package" <<<"$status" || missing+=("$package")
     done
