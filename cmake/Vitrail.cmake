@@ -37,13 +37,33 @@ include(GoogleTest)
 
 # CUDA is optional: where nvcc is found the program can use a GPU, and finds out at run time whether there is one.
 set(VITRAIL_CUDA AUTO CACHE STRING "CUDA backend: AUTO, ON or OFF")
+# --fmad=false, as -ffp-contract=off below: land is the same bit for bit.
+set(VITRAIL_NVCC_FLAGS -std=c++20 -O3 --fmad=false --expt-relaxed-constexpr -Xcompiler=-fPIC,-ffp-contract=off
+    -gencode arch=compute_75,code=compute_75 -gencode arch=compute_90,code=sm_90)
 if(NOT VITRAIL_CUDA STREQUAL "OFF" AND NOT VITRAIL_SANITIZE)
     find_program(VITRAIL_NVCC nvcc HINTS /usr/local/cuda/bin)
     if(VITRAIL_NVCC)
         file(REAL_PATH ${VITRAIL_NVCC} nvcc)
-        get_filename_component(VITRAIL_CUDA_ROOT ${nvcc}/../.. ABSOLUTE)
-    elseif(VITRAIL_CUDA STREQUAL "ON")
-        message(FATAL_ERROR "VITRAIL_CUDA is ON, but there is no nvcc")
+        get_filename_component(root ${nvcc}/../.. ABSOLUTE)
+        find_library(VITRAIL_CUDART libcudart_static.a HINTS ${root}/lib64 ${root}/targets/x86_64-linux/lib ${root}/lib/x86_64-linux-gnu)
+        # An old nvcc, or one that does not know this host compiler, must not end the build.
+        if(VITRAIL_CUDART AND NOT DEFINED VITRAIL_CUDA_WORKS)
+            file(WRITE ${CMAKE_BINARY_DIR}/cuda_check.cu "template <class T> concept Any = true;\n__global__ void f(int* p) { *p = 1; }\n")
+            execute_process(COMMAND ${VITRAIL_NVCC} ${VITRAIL_NVCC_FLAGS} -c cuda_check.cu -o cuda_check.o
+                WORKING_DIRECTORY ${CMAKE_BINARY_DIR} RESULT_VARIABLE status ERROR_VARIABLE why OUTPUT_QUIET)
+            if(status EQUAL 0)
+                set(VITRAIL_CUDA_WORKS ON CACHE INTERNAL "nvcc makes what we need")
+            else()
+                message(STATUS "without CUDA: ${nvcc} cannot make C++20 for compute 7.5 and 9.0: ${why}")
+                set(VITRAIL_CUDA_WORKS OFF CACHE INTERNAL "nvcc makes what we need")
+            endif()
+        endif()
+        if(VITRAIL_CUDA_WORKS)
+            set(VITRAIL_CUDA_ROOT ${root})
+        endif()
+    endif()
+    if(VITRAIL_CUDA STREQUAL "ON" AND NOT VITRAIL_CUDA_ROOT)
+        message(FATAL_ERROR "VITRAIL_CUDA is ON, but there is no nvcc that works with a static runtime")
     endif()
 endif()
 
@@ -89,8 +109,7 @@ function(vitrail_cuda_sources target)
         get_filename_component(name ${source} NAME_WE)
         set(object ${CMAKE_CURRENT_BINARY_DIR}/${name}.cu.o)
         add_custom_command(OUTPUT ${object}
-            COMMAND ${VITRAIL_NVCC} -std=c++20 -O3 --fmad=false --expt-relaxed-constexpr -Xcompiler=-fPIC,-ffp-contract=off
-                    -gencode arch=compute_75,code=compute_75 -gencode arch=compute_90,code=sm_90
+            COMMAND ${VITRAIL_NVCC} ${VITRAIL_NVCC_FLAGS}
                     -I${CMAKE_SOURCE_DIR}/src -MD -MF ${object}.d -c ${source} -o ${object}
             DEPENDS ${source} DEPFILE ${object}.d COMMENT "CUDA ${name}.cu" VERBATIM)
         target_sources(${target} PRIVATE ${object})
@@ -98,7 +117,7 @@ function(vitrail_cuda_sources target)
     endforeach()
     target_compile_definitions(${target} PRIVATE VITRAIL_CUDA=1)
     target_include_directories(${target} SYSTEM PRIVATE ${VITRAIL_CUDA_ROOT}/include)
-    target_link_libraries(${target} PUBLIC ${VITRAIL_CUDA_ROOT}/lib64/libcudart_static.a dl rt)
+    target_link_libraries(${target} PUBLIC ${VITRAIL_CUDART} dl rt)
 endfunction()
 
 # tests/FOLDER/*_test.cpp become one program test_FOLDER; a test named *Slow* or *Long* belongs to ./test --long.
