@@ -95,7 +95,7 @@ Result<TerrainDescription::CaveRule> read_cave_rule(const Value& value) {
     VX_TRY(read_keys(value, {{"place", word_of(rule.place, kCavePlaces), true},
                              {"from", block_set(rule.from), true},
                              {"to", block(rule.to), true},
-                             {"depth", whole(rule.depth, 1, 16)},
+                             {"depth", whole(rule.depth, 1, kCaveRuleDepthMost)},
                              {"chance", number(rule.chance, 0, 1)},
                              {"vein", expression(rule.vein)},
                              {"vein_width", number(rule.vein_width, 0, 1)}}));

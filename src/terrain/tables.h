@@ -106,6 +106,7 @@ struct SurfaceRuleRow {
 };
 
 inline constexpr const char* kCavePlaces[] = {"floor", "ceiling", "rock"}; // as content names them
+inline constexpr i32 kCaveRuleDepthMost = 24; // of floors and ceilings, blocks
 enum class CavePlace : u8 { floor, ceiling, rock }; // the `depth` blocks under a floor, over a ceiling; all of the biome's rock
 struct CaveRuleRow {
     u8 biome = 0;

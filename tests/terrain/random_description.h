@@ -172,7 +172,7 @@ private:
         r.place = one_of(kCavePlaces);
         r.from = from();
         r.to = block();
-        r.depth = 1 + i32(rng_.below(64));
+        r.depth = 1 + i32(rng_.below(kCaveRuleDepthMost));
         r.chance = between(0, 1);
         if (rng_.below(2) == 0) {
             r.vein = rng_.below(2) == 0 ? "F3(.05)" : "F8(.5)";

@@ -366,7 +366,7 @@ private:
         r.place = CavePlace(place);
         VX_TRY_ASSIGN(r.from, block_set(row, rule.from));
         VX_TRY_ASSIGN(r.to, block(row, rule.to));
-        VX_TRY(check_range(row, "depth", rule.depth, 1, 64));
+        VX_TRY(check_range(row, "depth", rule.depth, 1, kCaveRuleDepthMost));
         VX_TRY(check_range(row, "chance", rule.chance, 0, 1));
         r.depth = u8(rule.depth);
         r.chance = rule.chance;

@@ -12,7 +12,6 @@
 
 namespace vitrail {
 
-inline constexpr i32 kCaveRuleDepthMost = 24; // deeper floors and ceilings are as deep as this
 inline constexpr i32 kCaveRuleLevels = 8;     // worked at once
 
 // Draws the cave biomes of one row.
