@@ -219,16 +219,17 @@ VX_HD_FN typename L::F fractal3(const NoiseOctave* octaves, i32 count, const Spo
     return sum;
 }
 
-// The same for many rows of one anchor: octaves anchored once.
+// The same for many rows of one anchor: octaves anchored once. Inlined, as worley3: clang 19 misaligns vectors of 128 bytes
+// (PairLanes) that are passed to a function while AddressSanitizer moves the stack.
 template <class L>
-VX_HD_FN typename L::F fractal2(const AnchoredOctave* octaves, i32 count, typename L::F dx, typename L::F dz) {
+VX_HD typename L::F fractal2(const AnchoredOctave* octaves, i32 count, typename L::F dx, typename L::F dz) {
     typename L::F sum = simplex2<L>(octaves[0], dx, dz);
     for (i32 i = 1; i < count; ++i)
         sum = sum + simplex2<L>(octaves[i], dx, dz);
     return sum;
 }
 template <class L>
-VX_HD_FN typename L::F fractal3(const AnchoredOctave* octaves, i32 count, typename L::F dx, typename L::F dy,
+VX_HD typename L::F fractal3(const AnchoredOctave* octaves, i32 count, typename L::F dx, typename L::F dy,
                                 typename L::F dz) {
     const typename L::F all = dx + dz + dy;
     typename L::F sum = simplex3<L>(octaves[0], dx, dy, dz, all);
@@ -278,7 +279,7 @@ VX_HD_FN Cellular<L> worley2(const NoiseOctave& o, const Spot<L>& p) {
 
 // Three dimensions, 3 x 3 x 3 cells, likewise. `stretch_y` multiplies y's frequency; `warp` moves the place, in cells.
 template <class L>
-VX_HD_FN Cellular<L> worley3(const NoiseOctave& o, const Spot<L>& p, float stretch_y, typename L::F warp_x,
+VX_HD Cellular<L> worley3(const NoiseOctave& o, const Spot<L>& p, float stretch_y, typename L::F warp_x,
                              typename L::F warp_y, typename L::F warp_z) {
     using F = typename L::F;
     using U = typename L::U;
