@@ -2,28 +2,30 @@
 #include "terrain/cpu/pack_stage.h"
 #include "terrain/generator.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace vitrail {
 
 namespace {
 
-// By block, the first one that stands for the same state: content may give one state two texts.
-void find_same(const TerrainPalette& palette, Block* same) {
-    for (u32 b = 0; b < palette.blocks.size() && b < kBlocksMost; ++b) {
-        u32 first = 0;
-        while (palette.blocks[first] != palette.blocks[b]) ++first;
-        same[b] = Block(first);
-    }
-}
-
-BlockStorage pack_section(const TerrainStages& stages, const Block* blocks, const Block* same, const TerrainPalette& palette) {
+BlockStorage pack_section(const TerrainStages& stages, const Block* blocks, const TerrainPalette& palette) {
     PackedSection packed;
-    stages.pack(blocks, same, packed);
+    stages.pack(blocks, packed);
     if (packed.bits == 0) return BlockStorage(palette.blocks[packed.palette[0]]);
     std::vector<StateId> states(packed.count);
-    for (u32 i = 0; i < packed.count; ++i) states[i] = palette.blocks[packed.palette[i]];
-    return BlockStorage::from_packed(std::move(states), std::vector<u64>(packed.words, packed.words + packed.bits * 64));
+    for (u32 i = 0; i < packed.count; ++i)
+        states[i] = palette.blocks[packed.palette[i]];
+    // Content may give one state two texts; a palette holds each state once.
+    for (auto s = states.begin(); s != states.end(); ++s)
+        if (std::find(states.begin(), s, *s) != s) {
+            std::array<StateId, kChunkVolume> all;
+            for (i32 i = 0; i < kChunkVolume; ++i)
+                all[std::size_t(i)] = palette.blocks[blocks[i]];
+            return BlockStorage::from_states(all);
+        }
+    return BlockStorage::from_packed(std::move(states),
+                                     std::vector<u64>(packed.words, packed.words + packed.bits * 64));
 }
 
 // The y above each block column's highest block that takes light, from the top down, eight columns of air at a time.
@@ -52,14 +54,12 @@ void find_heights(const BlockTile& tile, const TerrainPalette& palette, std::arr
 
 GeneratedColumn pack_column(const BlockTile& tile, const BiomeTile& biomes, const TerrainPalette& palette) {
     const TerrainStages& stages = terrain_stages(best_isa());
-    Block same[kBlocksMost] = {};
-    find_same(palette, same);
     GeneratedColumn out;
     out.chunks.resize(kTerrainSections);
     for (i32 s = 0; s < kTerrainSections; ++s) {
         Chunk& chunk = out.chunks[std::size_t(s)];
         chunk.blocks = s * kChunkSize >= tile.top ? BlockStorage(palette.blocks[kAir])
-                                                  : pack_section(stages, tile.block + s * kChunkVolume, same, palette);
+                                                  : pack_section(stages, tile.block + s * kChunkVolume, palette);
         for (i32 cell = 0; cell < 64; ++cell)
             chunk.biomes.cells[std::size_t(cell)] = palette.biomes[biomes.biome[s * 64 + cell]];
     }

@@ -59,34 +59,25 @@ VX_HD void squeeze(u8* cells) {
 
 } // namespace pack_detail
 
-// same: by block, the first block that stands for the same state.
 template <class L>
-void pack_stage(const Block* blocks, const Block* same, PackedSection& out) {
+void pack_stage(const Block* blocks, PackedSection& out) {
     using namespace pack_detail;
     u8* cells = reinterpret_cast<u8*>(out.words);
-    Block known[kBlocksMost];
-    u8 slot[kBlocksMost];
-    u32 knowns = 0;
     out.count = 0;
     for (i32 i = 0; i < kChunkVolume; i += 64) {
         Bytes v, index{}, open = Bytes{} - 1; // open: lanes whose block has no slot yet
         __builtin_memcpy(&v, blocks + i, sizeof v);
         for (u32 k = 0;; ++k) {
-            if (k == knowns) {
+            if (k == out.count) {
                 if (any_bits(open) == 0) break;
                 u8 lanes[64];
                 __builtin_memcpy(lanes, &open, sizeof lanes);
                 i32 first = 0;
                 while (lanes[first] == 0) ++first;
-                const Block block = blocks[i + first], state = same[block];
-                u32 s = 0;
-                while (s < out.count && out.palette[s] != state) ++s;
-                if (s == out.count) out.palette[out.count++] = state;
-                known[knowns] = block;
-                slot[knowns++] = u8(s);
+                out.palette[out.count++] = blocks[i + first];
             }
-            const Bytes here = (Bytes)(v == known[k]);
-            index = index | (here & slot[k]);
+            const Bytes here = (Bytes)(v == out.palette[k]);
+            index = index | (here & u8(k));
             open = open & ~here;
         }
         __builtin_memcpy(cells + i, &index, sizeof index);

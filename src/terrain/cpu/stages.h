@@ -26,8 +26,8 @@ struct TerrainStages {
     // features: of the 7 x 7 columns around, row by row (-z first, then -x).
     void (*draw)(const TerrainTables&, ColumnPos at, const FeatureTile* const features[49], BlockTile& blocks) = nullptr;
     void (*decorate)(const TerrainTables&, ColumnPos at, const GroundTile&, const CaveTile&, BlockTile& blocks) = nullptr;
-    // 16^3 blocks to a palette; same: by block, the first block that stands for the same state.
-    void (*pack)(const Block* blocks, const Block* same, PackedSection& out) = nullptr;
+    // 16^3 blocks to a palette.
+    void (*pack)(const Block* blocks, PackedSection& out) = nullptr;
     void (*biomes)(const TerrainTables&, const GroundTile&, const CaveTile&, BiomeTile& out) = nullptr;
 };
 
