@@ -12,23 +12,6 @@ void register_cuda_benches(bench::Suite& suite);
 
 namespace {
 
-std::shared_ptr<TerrainGenerator> base_generator() {
-    auto made = TerrainGenerator::create(base_terrain(), 7);
-    if (!made) throw std::runtime_error(made.error().message);
-    return *made;
-}
-
-TerrainPalette plain_palette(const TerrainGenerator& generator) {
-    TerrainPalette palette;
-    for (u32 i = 0; i < generator.block_names().size(); ++i) {
-        palette.blocks.push_back(StateId(i));
-        palette.takes_light.push_back(i != kAir);
-    }
-    for (u32 i = 0; i < generator.biome_names().size(); ++i)
-        palette.biomes.push_back(BiomeId(i));
-    return palette;
-}
-
 u64 filled(const GeneratedColumn& column) {
     u64 n = 0;
     for (const Chunk& chunk : column.chunks)
@@ -37,7 +20,7 @@ u64 filled(const GeneratedColumn& column) {
 }
 
 void cuda(bench::Context& c, bool chunks) {
-    const auto generator = base_generator();
+    const auto generator = base_generator(7);
     const TerrainPalette palette = plain_palette(*generator);
     auto maker = open_cuda_batches(
         generator,

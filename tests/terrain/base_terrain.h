@@ -1,8 +1,8 @@
-// The base game's terrain, for tests that want the real one.
+// The base game's terrain and its generator, for tests and benchmarks that want the real one.
 #pragma once
 
 #include "script/content_loader.h"
-#include "terrain/description.h"
+#include "terrain/generator.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -19,6 +19,24 @@ inline const TerrainDescription& base_terrain() {
         return content->terrain;
     }();
     return *terrain;
+}
+
+inline std::shared_ptr<TerrainGenerator> base_generator(u64 seed, TerrainGeneratorOptions options = {}) {
+    auto made = TerrainGenerator::create(base_terrain(), seed, options);
+    if (!made) throw std::runtime_error(made.error().message);
+    return *made;
+}
+
+// Ids that are the generator's own numbers.
+inline TerrainPalette plain_palette(const TerrainGenerator& generator) {
+    TerrainPalette palette;
+    for (u32 i = 0; i < generator.block_names().size(); ++i) {
+        palette.blocks.push_back(StateId(i));
+        palette.takes_light.push_back(i != kAir);
+    }
+    for (u32 i = 0; i < generator.biome_names().size(); ++i)
+        palette.biomes.push_back(BiomeId(i));
+    return palette;
 }
 
 } // namespace vitrail

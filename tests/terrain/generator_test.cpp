@@ -135,6 +135,27 @@ TEST(Generator, ColumnsAreWhole) {
     }
 }
 
+// Two blocks of the content that are one state share a palette entry.
+TEST(Generator, StatesWithTwoNamesArePackedOnce) {
+    const auto generator = base_generator(9);
+    const TerrainPalette plain = plain_palette(*generator);
+    TerrainPalette doubled = plain;
+    const auto tile = generator->blocks({0, 0});
+    Block most = 0;
+    for (i32 i = 0; i < kChunkVolume; ++i)
+        most = std::max(most, tile->block[i]);
+    ASSERT_GT(most, kBedrock);
+    doubled.blocks[most] = doubled.blocks[kBedrock];
+    const BiomeTile biomes{};
+    const BlockStorage own = pack_column(*tile, biomes, plain).chunks[0].blocks,
+                       seen = pack_column(*tile, biomes, doubled).chunks[0].blocks;
+    for (u32 i = 0; i < kChunkVolume; ++i) {
+        const StateId state = own.get(LocalPos(i));
+        EXPECT_EQ(seen.get(LocalPos(i)), u32(state) == most ? doubled.blocks[kBedrock] : state);
+    }
+    EXPECT_EQ(seen.palette().size() + 1, own.palette().size());
+}
+
 TEST(Generator, SpawnIsDryAndOpen) {
     for (const u64 seed : {1, 2, 3, 4}) {
         const auto generator = base_generator(seed);

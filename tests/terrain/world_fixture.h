@@ -1,4 +1,4 @@
-// The base game's generator with ids that are the generator's own numbers.
+// Columns that stand for the world, and their hash.
 #pragma once
 
 #include "terrain/generator.h"
@@ -9,23 +9,6 @@
 #include <cstdlib>
 
 namespace vitrail {
-
-inline std::shared_ptr<TerrainGenerator> base_generator(u64 seed, TerrainGeneratorOptions options = {}) {
-    auto made = TerrainGenerator::create(base_terrain(), seed, options);
-    if (!made) throw std::runtime_error(made.error().message);
-    return *made;
-}
-
-inline TerrainPalette plain_palette(const TerrainGenerator& generator) {
-    TerrainPalette palette;
-    for (u32 i = 0; i < generator.block_names().size(); ++i) {
-        palette.blocks.push_back(StateId(i));
-        palette.takes_light.push_back(i != kAir);
-    }
-    for (u32 i = 0; i < generator.biome_names().size(); ++i)
-        palette.biomes.push_back(BiomeId(i));
-    return palette;
-}
 
 // Order-free sum over columns, as `vitrail generate --hash` prints it.
 inline u64 place_hash(ColumnPos at, const GeneratedColumn& column) {
