@@ -158,7 +158,7 @@ function(vitrail_fuzz folder)
             # Script targets start from the real content too, as it is today.
             set(seeds ${CMAKE_SOURCE_DIR}/fuzz/corpus/${name})
             if(folder STREQUAL "lua" OR folder STREQUAL "script")
-                file(GLOB content CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/content/base/*.lua)
+                file(GLOB content CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/content/base/*.lua ${CMAKE_SOURCE_DIR}/content/demo/*.lua)
                 list(APPEND seeds ${content})
             endif()
             add_test(NAME fuzz.${name} COMMAND ${name} --runs 20000 --seconds 5 ${seeds})

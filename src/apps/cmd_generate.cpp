@@ -67,6 +67,8 @@ nlohmann::json stats_json(const AreaStats& stats, const std::string& device, uns
 } // namespace
 
 Result<> run_generate(const GenerateOptions& options) {
+    if (!options.script.empty()) return run_world_script(options);
+    if (!options.stations_file.empty()) return fail(ErrorCode::invalid_argument, "--stations wants a --script, which names them");
     if (options.device != "cpu" && options.device != "cuda")
         return fail(ErrorCode::invalid_argument, fmt::format("--device is cpu or cuda, not '{}'", options.device));
     if (!options.list && options.columns.empty())

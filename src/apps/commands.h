@@ -37,10 +37,12 @@ struct GenerateOptions {
     u64 seed = 1;
     std::string columns; // X0,Z0,X1,Z1 in chunk columns, inclusive
     std::string device = "cpu", world, stats_file;
+    std::string script, stations_file; // a world made by a script instead
     int threads = 0; // 0: as many as the machine has cores
     bool hash = false, list = false;
 };
 Result<> run_generate(const GenerateOptions& options);
+Result<> run_world_script(const GenerateOptions& options); // where there is a script
 
 struct BiomeMapOptions {
     u64 seed = 1;
@@ -93,6 +95,9 @@ const std::atomic<bool>& stop_on_signals();
 int exit_status(const char* program, const std::function<Result<>()>& command);
 // The one line that a message is shown as: newlines and other control characters become blanks.
 std::string one_line(std::string text);
+
+// What a file of at most `bytes_most` holds. Errors: not_found, io, limit.
+Result<std::string> read_text_file(const std::string& path, std::size_t bytes_most);
 
 // The folder content/: $VITRAIL_CONTENT, beside the program, or the source tree it was built from. Errors: not_found.
 Result<std::filesystem::path> content_folder();

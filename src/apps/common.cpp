@@ -111,7 +111,31 @@ Result<std::pair<u32, u32>> parse_size(const std::string& text) {
     return fail(ErrorCode::invalid_argument, fmt::format("--size wants WxH of 16 to 16384 a side and at most 64 million pixels, not '{}'", text));
 }
 
+Result<std::string> read_text_file(const std::string& path, std::size_t bytes_most) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return fail(ErrorCode::io, fmt::format("cannot read {}: it is a folder", path));
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return fail(ErrorCode::not_found, fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+    std::string text(bytes_most + 1, '\0'); // no asking for the size: a pipe has none
+    file.read(text.data(), std::streamsize(text.size()));
+    text.resize(std::size_t(file.gcount()));
+    if (text.size() > bytes_most) return fail(ErrorCode::limit, fmt::format("{}: longer than {} bytes", path, bytes_most));
+    return text;
+}
+
+// Pipes and devices (/dev/stdout) are written to, not replaced by a file.
+static bool is_stream(const std::string& path) {
+    std::error_code error;
+    const fs::file_status there = fs::status(path, error);
+    return !error && fs::exists(there) && !fs::is_regular_file(there) && !fs::is_directory(there);
+}
+
 Result<> write_file(const std::string& path, const std::string& text) {
+    if (is_stream(path)) {
+        std::ofstream file(path, std::ios::binary | std::ios::app);
+        file << text;
+        return file.flush() ? Result<>{} : fail(ErrorCode::io, fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+    }
     const std::string draft = fmt::format("{}.{}.part", path, getpid());
     {
         std::ofstream file(draft, std::ios::binary);
@@ -136,6 +160,7 @@ Result<> write_file(const std::string& path, const std::string& text) {
 Result<> check_writable(const std::string& path) {
     std::error_code error;
     if (fs::is_directory(path, error)) return fail(ErrorCode::io, fmt::format("cannot write {}: it is a folder", path));
+    if (is_stream(path)) return {};
     const std::string draft = fmt::format("{}.{}.part", path, getpid());
     std::ofstream file(draft, std::ios::binary);
     if (!file) return fail(ErrorCode::io, fmt::format("cannot write {}: {}", path, std::strerror(errno)));

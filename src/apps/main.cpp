@@ -101,8 +101,11 @@ int main(int argc, char** argv) {
         c->add_option("--threads", generate.threads, "threads of the CPU; as many as there are cores where not given")->check(CLI::Range(1, 1024));
         c->add_option("--world", generate.world, "keep it in this world folder");
         c->add_option("--stats", generate.stats_file, "write figures as JSON");
-        c->add_flag("--hash", generate.hash, "print a hash of all blocks");
-        c->add_flag("--list", generate.list, "list what the generator knows");
+        auto* hash = c->add_flag("--hash", generate.hash, "print a hash of all blocks");
+        auto* list = c->add_flag("--list", generate.list, "list what the generator knows");
+        auto* script = c->add_option("--script", generate.script, "a Lua file that makes a world (docs/world-scripts.md) instead of the generator");
+        c->add_option("--stations", generate.stations_file, "write the stations that the script names as JSON")->needs(script);
+        for (CLI::Option* other : {c->get_option("--seed"), c->get_option("--columns"), c->get_option("--device"), hash, list}) script->excludes(other);
         commands.push_back({c, [&] { return run_generate(generate); }});
     }
     BiomeMapOptions biome_map;

@@ -13,7 +13,7 @@ struct Sandbox::State {
     Meter meter;
     lua_State* state = nullptr;
     std::string output;
-    std::map<std::string, HostFunction> functions; // nodes stay in place
+    std::map<std::string, QueryFunction> functions; // nodes stay in place
 
     ~State() {
         if (state) lua_close(state);
@@ -29,11 +29,33 @@ struct Sandbox::State {
 
 namespace {
 
-// Runs a host function; false with the reason in `message`. Nothing here raises, so that destructors run.
-bool invoke(lua_State* state, const Sandbox::HostFunction& function, char* message, std::size_t message_size) {
+// What a host function gave, as plain data: nothing here may need a destructor where Lua raises an error.
+struct Answer {
+    enum { failed, nothing, boolean, whole, number, text } kind = nothing;
+    bool truth = false;
+    i64 integer = 0;
+    double real = 0;
+    std::size_t size = 0;
+    char bytes[kAnswerBytesMost + 1]; // of a text, or of the reason why it failed
+
+    void set_text(const std::string& from) {
+        size = std::min(from.size(), kAnswerBytesMost);
+        std::memcpy(bytes, from.data(), size);
+        bytes[size] = '\0';
+    }
+    void set(const Value& value) {
+        if (const bool* b = value.boolean()) kind = boolean, truth = *b;
+        if (const i64* i = std::get_if<i64>(&value.data)) kind = whole, integer = *i;
+        if (const double* d = std::get_if<double>(&value.data)) kind = number, real = *d;
+        if (const std::string* s = value.string()) kind = text, set_text(*s);
+    }
+};
+
+// Runs a host function. Nothing here raises, so that destructors run.
+void invoke(lua_State* state, const Sandbox::QueryFunction& function, Answer& answer) {
     std::vector<Value> arguments;
     const int count = lua_gettop(state);
-    Result<> result;
+    Result<Value> result;
     for (int i = 1; i <= count && result; ++i) {
         Result<Value> value = read_value(state, i);
         if (value)
@@ -42,12 +64,9 @@ bool invoke(lua_State* state, const Sandbox::HostFunction& function, char* messa
             result = fail(value.error().code, fmt::format("argument {}: {}", i, value.error().message));
     }
     if (result) result = function(arguments);
-    if (result) return true;
-    const std::string& text = result.error().message;
-    const std::size_t size = std::min(text.size(), message_size - 1);
-    std::memcpy(message, text.data(), size);
-    message[size] = '\0';
-    return false;
+    if (result) return answer.set(*result);
+    answer.kind = Answer::failed;
+    answer.set_text(result.error().message);
 }
 
 // Adds where in the chunk itself an error began, when helper functions lie between.
@@ -85,10 +104,27 @@ int Sandbox::State::print(lua_State* state) {
 }
 
 int Sandbox::State::call_host(lua_State* state) {
-    char message[1024];
+    Answer answer;
     charge(state, 10);
-    const auto& function = *static_cast<const HostFunction*>(lua_touserdata(state, lua_upvalueindex(1)));
-    if (!invoke(state, function, message, sizeof message)) return luaL_error(state, "%s", message);
+    invoke(state, *static_cast<const QueryFunction*>(lua_touserdata(state, lua_upvalueindex(1))), answer);
+    switch (answer.kind) {
+    case Answer::failed:
+        return luaL_error(state, "%s", answer.bytes);
+    case Answer::nothing:
+        return 0;
+    case Answer::boolean:
+        lua_pushboolean(state, answer.truth);
+        return 1;
+    case Answer::whole:
+        lua_pushinteger(state, answer.integer);
+        return 1;
+    case Answer::number:
+        lua_pushnumber(state, answer.real);
+        return 1;
+    case Answer::text:
+        lua_pushlstring(state, answer.bytes, answer.size);
+        return 1;
+    }
     return 0;
 }
 
@@ -102,7 +138,7 @@ int Sandbox::State::open_libraries(lua_State* state) {
     return 0;
 }
 
-// Arguments: the name, the HostFunction.
+// Arguments: the name, the QueryFunction.
 int Sandbox::State::set_global(lua_State* state) {
     lua_pushvalue(state, 2);
     lua_pushcclosure(state, call_host, 1);
@@ -132,8 +168,15 @@ Result<std::unique_ptr<Sandbox>> Sandbox::create(const SandboxLimits& limits) {
 Sandbox::~Sandbox() = default;
 
 void Sandbox::set_function(const std::string& name, HostFunction function) {
+    set_query(name, [called = std::move(function)](std::span<const Value> arguments) -> Result<Value> {
+        VX_TRY(called(arguments));
+        return Value{};
+    });
+}
+
+void Sandbox::set_query(const std::string& name, QueryFunction function) {
     State& self = *state_;
-    HostFunction& kept = self.functions[name] = std::move(function);
+    QueryFunction& kept = self.functions[name] = std::move(function);
     lua_pushcfunction(self.state, State::set_global);
     lua_pushlightuserdata(self.state, const_cast<std::string*>(&name));
     lua_pushlightuserdata(self.state, &kept);

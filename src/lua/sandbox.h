@@ -30,6 +30,8 @@
 
 namespace vitrail::lua {
 
+inline constexpr std::size_t kAnswerBytesMost = 1023; // of a text that a host function gives back
+
 struct SandboxLimits {
     std::size_t memory_bytes_most = std::size_t(64) << 20;
     u64 instructions_most = 50'000'000;
@@ -49,6 +51,9 @@ public:
     // Its error becomes a Lua error at the place of the call. The arguments live as long as the call.
     using HostFunction = std::function<Result<>(std::span<const Value> arguments)>;
     void set_function(const std::string& name, HostFunction function);
+    // One that answers: nothing, a boolean, a number or a text of at most kAnswerBytesMost bytes.
+    using QueryFunction = std::function<Result<Value>(std::span<const Value> arguments)>;
+    void set_query(const std::string& name, QueryFunction function);
 
     // Runs a text chunk; `name` is what messages call it. Errors: invalid_argument with `name:line: message` for a
     // script's own mistakes, limit once a limit is passed.

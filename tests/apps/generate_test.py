@@ -2,7 +2,7 @@
 import json
 import struct
 
-from harness import LONG, SCRATCH, expect, expect_ok, finish
+from harness import LONG, SCRATCH, expect, expect_error, expect_ok, finish
 
 
 def hash_of(*words):
@@ -67,4 +67,21 @@ expect_ok("biome-map", "--seed", 7, "--size", 64, f"--center={far},{-far}", "-o"
 if LONG:
     expect_ok("biome-map", "--seed", 7, "--size", 16384, "-o", map_file)
     expect(png_size(map_file) == (1024, 1024), "a large map")
+
+# A world made by a script.
+script, stations_file = SCRATCH / "garden.lua", SCRATCH / "stations.json"
+script.write_text("""world { name = "Garden", spawn = { 0, 65, 0 } } fill(-20, 60, -20, 20, 64, 20, "stone") print("hello")
+station { name = "a", effect = "water", at = { 1, 66.5, 2 }, look = { 90, 5 }, time = 7000, without = "water.waves=false" }""")
+told = expect_ok("generate", "--script", script, "--world", SCRATCH / "garden", "--stations", stations_file, "--stats", stats_file).stdout
+expect("hello" in told and "1 stations" in told, told)
+stations = json.loads(stations_file.read_text())
+expect(stations == [{"name": "a", "effect": "water", "text": "", "at": [1, 66.5, 2], "look": [90, 5], "fov": 70, "time": 7000,
+                     "without": ["water.waves=false"]}], f"stations: {stations}")
+stats = json.loads(stats_file.read_text())
+expect(stats["columns"] == 16 and stats["chunks"] == 32 and stats["stations"] == 1, f"stats of a script: {stats}")
+expect("16 columns" in expect_ok("inspect", "--world", SCRATCH / "garden").stdout, "columns of a script")
+expect_ok("verify", "--world", SCRATCH / "garden")
+expect_error("generate", "--script", script, "--world", SCRATCH / "garden", mention="holds a world already")
+to_standard = expect_ok("generate", "--script", script, "--stations", "/dev/stdout").stdout
+expect('"effect": "water"' in to_standard, to_standard)
 finish()

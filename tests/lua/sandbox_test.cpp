@@ -51,6 +51,26 @@ TEST(Sandbox, RunsPlainLua) {
     EXPECT_EQ(text_of("string.format('%d %5.2f %s', 3, 1.5, 'y')"), "3  1.50 y");
 }
 
+TEST(Sandbox, HostFunctionsAnswer) {
+    auto sandbox = fresh();
+    sandbox->set_query("give", [](std::span<const Value> arguments) -> Result<Value> {
+        if (arguments.empty()) return Value{};
+        if (arguments[0].table()) return fail(ErrorCode::invalid_argument, "no tables");
+        return arguments[0];
+    });
+    const auto run = [&](const std::string& text) {
+        const Result<> result = sandbox->run(text, "test");
+        return result ? std::string() : result.error().message;
+    };
+    EXPECT_EQ(
+        run("assert(give(7) == 7 and math.type(give(7)) == 'integer' and give(.5) == .5 and give('x\\0y') == 'x\\0y')"),
+        "");
+    EXPECT_EQ(run("assert(give(true) == true and give(false) == false and give() == nil and select('#', give()) == 0)"),
+              "");
+    EXPECT_EQ(run("assert(#give(('x'):rep(5000)) == 1023)"), "");
+    EXPECT_EQ(run("\ngive({})"), "test:2: no tables");
+}
+
 // The limit is on what scripts take, not on what their thread did before.
 TEST(Sandbox, ThreadsThatWorkedBeforeMayRunScripts) {
     SandboxLimits limits = small();
