@@ -96,7 +96,7 @@ struct Flyer {
         if (error || !mkdtemp(pattern.data())) return fail(ErrorCode::io, "no folder for a passing world");
         folder = pattern;
         VX_TRY_ASSIGN(context, platform::HeadlessContext::create());
-        VX_TRY_ASSIGN(renderer, render::Renderer::create({.quality = render::Quality::low}));
+        VX_TRY_ASSIGN(renderer, render::Renderer::create({.effects = render::preset_effects(render::Preset::low)}));
         VX_TRY(renderer->load_textures(*content.registry));
         client::LocalGameOptions local;
         local.server.folder = folder.string();

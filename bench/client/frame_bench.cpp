@@ -18,7 +18,7 @@ namespace {
 client::StillOptions still_options(bench::Context& context, u32 view_distance, BlockPos spawn) {
     client::StillOptions options;
     options.view_distance = view_distance;
-    options.quality = render::Quality::low;
+    options.effects = render::preset_effects(render::Preset::low);
     options.world = context.options["world"];
     options.seed = 7;
     options.pose.eye.at = world_pos_from_numbers(spawn.x + 0.5, spawn.y + 9.0, spawn.z + 0.5);

@@ -8,10 +8,10 @@
 
 using namespace vitrail;
 
-static void frame_bench(bench::Context& c, i32 chunks, render::Quality quality) {
+static void frame_bench(bench::Context& c, i32 chunks, render::Preset preset) {
     auto context = platform::HeadlessContext::create();
     if (!context) return c.skip(context.error().message);
-    auto renderer = render::Renderer::create({.quality = quality});
+    auto renderer = render::Renderer::create({.effects = render::preset_effects(preset)});
     if (!renderer) return c.skip(renderer.error().message);
     bench::SampleScene scene(chunks);
     scene.give(**renderer);
@@ -33,9 +33,9 @@ static void frame_bench(bench::Context& c, i32 chunks, render::Quality quality) 
 
 void register_render_benches(bench::Suite& suite) {
     suite.add("frame.sample.6", "ms", "854x480, low preset, 6 chunks, seeded landscape",
-              [](bench::Context& c) { frame_bench(c, 6, render::Quality::low); });
+              [](bench::Context& c) { frame_bench(c, 6, render::Preset::low); });
     suite.add("frame.sample.12", "ms", "854x480, low preset, 12 chunks, seeded landscape",
-              [](bench::Context& c) { frame_bench(c, 12, render::Quality::low); });
+              [](bench::Context& c) { frame_bench(c, 12, render::Preset::low); });
     suite.add("frame.sample_high.6", "ms", "854x480, high preset, 6 chunks, seeded landscape",
-              [](bench::Context& c) { frame_bench(c, 6, render::Quality::high); });
+              [](bench::Context& c) { frame_bench(c, 6, render::Preset::high); });
 }

@@ -37,6 +37,9 @@ Result<> run_play(const PlayOptions& options) {
     game.local.server.device = options.device;
     game.local.replica.name = options.name;
     game.view_distance = options.view_distance;
+    game.shader_folder = options.effects.shader_folder;
+    VX_TRY(effects_of(options.effects, {})); // wrong words are told before a window opens
+    game.change_effects = [arguments = options.effects](const render::Effects& kept) { return *effects_of(arguments, kept); };
     game.screenshot_folder = data_folder() / "screenshots";
     if (const auto path = client::settings_path()) game.settings_file = *path;
     VX_TRY_ASSIGN(const Content content, load_base_content());

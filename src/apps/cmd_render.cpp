@@ -44,7 +44,8 @@ Result<> run_render(const RenderOptions& wanted) {
     still_options.seed = options.seed.value_or(0);
     still_options.dimension = options.dimension;
     still_options.view_distance = u32(options.view_distance);
-    still_options.quality = options.quality == "low" ? render::Quality::low : render::Quality::high;
+    VX_TRY_ASSIGN(still_options.effects, effects_of(options.effects, still_options.effects));
+    still_options.shader_folder = options.effects.shader_folder;
     bool from_spawn = false;
     if (options.at.empty()) {
         if (!options.seed) return fail(ErrorCode::invalid_argument, "render --world wants --at X,Y,Z and --look YAW,PITCH");

@@ -2,6 +2,7 @@
 // exit status's cause: an Error ends the program with one line on standard error and status 2.
 #pragma once
 
+#include "apps/effect_arguments.h"
 #include "base/result.h"
 #include "base/types.h"
 #include "voxel/coords.h"
@@ -59,7 +60,7 @@ struct RenderOptions {
     std::optional<u64> seed;
     float fov_deg = 70, time = 6000;
     int view_distance = 12, spp = 1;
-    std::string quality = "high";
+    EffectArguments effects;
     bool demo = false;
 };
 Result<> run_render(const RenderOptions& options);
@@ -69,6 +70,7 @@ struct PlayOptions {
     std::optional<u64> seed;
     int view_distance = 0; // 0: as the settings say
     std::string device = "auto";
+    EffectArguments effects; // over the settings
 };
 Result<> run_play(const PlayOptions& options);
 

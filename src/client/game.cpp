@@ -45,9 +45,10 @@ static Result<> open_window(GameState& state) {
     VX_TRY_ASSIGN(state.window, platform::Window::create(window));
     if (state.settings.fullscreen) state.window->set_fullscreen(true);
     // Until the player says otherwise, a machine without a graphics card draws plainly.
-    if (const auto info = gfx::context_info(); info && info->software && !state.settings_chosen) state.settings.high_quality = false;
-    VX_TRY_ASSIGN(state.renderer, render::Renderer::create({.quality = state.settings.high_quality ? render::Quality::high
-                                                                                                   : render::Quality::low}));
+    if (const auto info = gfx::context_info(); info && info->software && !state.settings_chosen)
+        state.settings.effects = render::preset_effects(render::Preset::low);
+    if (state.options.change_effects) state.settings.effects = state.options.change_effects(state.settings.effects);
+    VX_TRY_ASSIGN(state.renderer, render::Renderer::create({.effects = state.settings.effects, .shader_folder = state.options.shader_folder}));
     VX_TRY_ASSIGN(state.ui, render::UiLayer::create(*state.window));
     apply_style(state.settings.ui_scale);
     return {};

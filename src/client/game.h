@@ -13,6 +13,7 @@
 #include <array>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 
@@ -24,6 +25,9 @@ struct GameOptions {
     std::filesystem::path screenshot_folder; // F2
     u32 width = 1280, height = 720;
     i32 view_distance = 0;                   // 0: as the settings say
+    std::string shader_folder;               // see render::RendererOptions
+    // What the command line makes of the effects kept; null: nothing.
+    std::function<render::Effects(const render::Effects&)> change_effects;
 };
 
 // Opens window and world, plays until the player quits, saves. Errors: no display, the server's.

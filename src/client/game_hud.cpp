@@ -58,6 +58,8 @@ std::vector<std::string> debug_lines_right(const GameState& state) {
         fmt::format("edits waiting {}  corrections {}", net.pending_edits, net.corrections),
     };
     if (const auto info = gfx::context_info()) lines.push_back(info->renderer);
+    for (const auto& [pass, ms] : state.renderer->stats().passes_ms) lines.push_back(fmt::format("{} {:.2f} ms", pass, ms));
+    if (const std::string& error = state.renderer->shader_error(); !error.empty()) lines.push_back(error);
     if (state.hit) {
         const auto& block = replica.states()->info(replica.dimension().state_at(state.hit->block)).state;
         lines.emplace_back();
@@ -97,8 +99,10 @@ static void apply_settings(GameState& state, const Settings& before) {
     if (now.view_distance != before.view_distance) state.game->replica().set_view_distance(u32(now.view_distance));
     if (now.vsync != before.vsync) state.window->set_vsync(now.vsync);
     if (now.fullscreen != before.fullscreen) state.window->set_fullscreen(now.fullscreen);
-    if (now.high_quality != before.high_quality)
-        state.renderer->set_quality(now.high_quality ? render::Quality::high : render::Quality::low);
+    if (const auto set = state.renderer->set_effects(now.effects); !set) {
+        say(state, set.error().message);
+        state.settings.effects = before.effects;
+    }
     if (now.ui_scale != before.ui_scale) apply_style(now.ui_scale);
     keep_settings(state);
 }
@@ -117,6 +121,7 @@ void draw_interface(GameState& state) {
         for (const Notice& notice : state.notices) lines.push_back(notice.text);
         draw_notices(lines);
     }
+    state.renderer->set_timing(state.debug_text);
     if (state.debug_text) {
         draw_debug_text(debug_lines_left(state), false);
         draw_debug_text(debug_lines_right(state), true);

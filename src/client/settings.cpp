@@ -20,6 +20,7 @@ Settings sane(Settings s) {
     s.gamma = hold(s.gamma, 0.5f, 2, 1);
     s.ui_scale = hold(s.ui_scale, 0.5f, 3, 1);
     s.frame_limit = std::clamp(s.frame_limit, 0, 1000);
+    s.effects = render::sane(s.effects);
     return s;
 }
 
@@ -38,10 +39,49 @@ static void each_setting(Settings& s, Visit&& visit) {
     visit("invert_y", s.invert_y);
     visit("vsync", s.vsync);
     visit("fullscreen", s.fullscreen);
-    visit("high_quality", s.high_quality);
     visit("gamma", s.gamma);
     visit("ui_scale", s.ui_scale);
     visit("frame_limit", s.frame_limit);
+}
+
+// quality = "PRESET" and a table [effects] of what the player changed in it.
+static void read_effects(const toml::table& table, render::Effects& effects) {
+    if (const auto name = table["quality"].value<std::string>())
+        if (const auto preset = render::preset_from(*name)) effects = render::preset_effects(*preset);
+    const toml::table* changes = table["effects"].as_table();
+    if (!changes) return;
+    for (const render::EffectOption& option : render::effect_options()) {
+        const toml::node* node = changes->get(option.key);
+        if (!node) continue;
+        std::string value;
+        if (const auto text = node->value_exact<std::string>()) value = *text;
+        else if (const auto yes = node->value_exact<bool>()) value = *yes ? "true" : "false";
+        else if (const auto whole = node->value_exact<i64>()) value = fmt::format("{}", *whole);
+        else if (const auto number = node->value_exact<double>()) value = fmt::format("{}", float(*number));
+        (void)render::set_effect(effects, option.key, value); // what does not fit keeps the preset's value
+    }
+}
+
+static std::string effects_text(const render::Effects& effects) {
+    // The preset from which fewest values differ.
+    u32 nearest = 0, fewest = ~0u;
+    for (u32 i = 0; i < u32(render::Preset::count); ++i) {
+        const render::Effects preset = render::preset_effects(render::Preset(i));
+        u32 differ = 0;
+        for (const render::EffectOption& option : render::effect_options())
+            differ += render::effect_text(preset, option) != render::effect_text(effects, option);
+        if (differ < fewest) fewest = differ, nearest = i;
+    }
+    const render::Effects preset = render::preset_effects(render::Preset(nearest));
+    std::string text = fmt::format("quality = \"{}\"\n", render::preset_name(render::Preset(nearest)));
+    if (fewest > 0) text += "[effects]\n";
+    for (const render::EffectOption& option : render::effect_options()) {
+        const std::string value = render::effect_text(effects, option);
+        if (value == render::effect_text(preset, option)) continue;
+        text += option.choices.empty() ? fmt::format("\"{}\" = {}\n", option.key, value)
+                                       : fmt::format("\"{}\" = \"{}\"\n", option.key, value);
+    }
+    return text;
 }
 
 Result<Settings> load_settings(const fs::path& path) {
@@ -59,6 +99,7 @@ Result<Settings> load_settings(const fs::path& path) {
         using T = std::remove_reference_t<decltype(value)>;
         if (const auto found = table[key].value<T>()) value = *found;
     });
+    read_effects(table, settings.effects);
     return sane(settings);
 }
 
@@ -71,6 +112,7 @@ Result<> save_settings(const fs::path& path, const Settings& settings) {
         if constexpr (std::is_same_v<T, float>) text += fmt::format("{} = {:.4f}\n", key, value);
         else text += fmt::format("{} = {}\n", key, value);
     });
+    text += effects_text(copy.effects);
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     const fs::path draft = fmt::format("{}.{}.part", path.string(), getpid());

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "base/types.h"
+#include "render/effects.h"
 
 #include <filesystem>
 #include <string>
@@ -16,7 +17,7 @@ struct Settings {
     bool invert_y = false;
     bool vsync = true;
     bool fullscreen = false;
-    bool high_quality = true;
+    render::Effects effects = render::preset_effects(render::Preset::high); // kept as a preset and what differs from it
     float gamma = 1;     // exposure, 0.5..2
     float ui_scale = 1;  // 0.5..3
     i32 frame_limit = 0; // frames a second, 0 none

@@ -45,7 +45,7 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Co
     local.replica.view_distance = options.view_distance;
     VX_TRY_ASSIGN(still->game_, LocalGame::open(local, content));
     VX_TRY(still->game_->wait_joined(60));
-    VX_TRY_ASSIGN(still->renderer_, render::Renderer::create({.quality = options.quality}));
+    VX_TRY_ASSIGN(still->renderer_, render::Renderer::create({.effects = options.effects, .shader_folder = options.shader_folder}));
     VX_TRY(still->renderer_->load_textures(*content.registry));
     still->pool_ = std::make_unique<ThreadPool>(default_worker_count());
     still->feeder_ = std::make_unique<SectionFeeder>(*still->renderer_, *still->pool_);

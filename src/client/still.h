@@ -19,7 +19,8 @@ struct StillOptions {
     std::string dimension;   // name; empty: the world's spawn dimension
     CameraPose pose;
     u32 view_distance = 12;  // chunks
-    render::Quality quality = render::Quality::high;
+    render::Effects effects = render::preset_effects(render::Preset::high);
+    std::string shader_folder; // see render::RendererOptions
     double seconds_most = 600; // for the world to arrive
     const std::atomic<bool>* stop = nullptr; // where it turns true, opening ends with an error
 };

@@ -101,6 +101,37 @@ void draw_loading(const std::string& text, float progress) {
     list->AddRectFilled({x, y}, {x + width * std::clamp(progress, 0.0f, 1.0f), y + 8}, IM_COL32(160, 205, 235, 255), 4);
 }
 
+// A preset, and below it every effect with its numbers, from their one description.
+static void draw_effects(render::Effects& effects) {
+    const auto preset = render::preset_of(effects);
+    if (ImGui::BeginCombo("Quality", preset ? render::preset_name(*preset) : "my own")) {
+        for (u32 i = 0; i < u32(render::Preset::count); ++i)
+            if (ImGui::Selectable(render::preset_name(render::Preset(i)), preset == render::Preset(i)))
+                effects = render::preset_effects(render::Preset(i));
+        ImGui::EndCombo();
+    }
+    if (!ImGui::CollapsingHeader("Effects")) return;
+    ImGui::BeginChild("effects", {0, ImGui::GetTextLineHeightWithSpacing() * 12});
+    std::string group;
+    for (const render::EffectOption& option : render::effect_options()) {
+        const std::string_view key = option.key;
+        const std::string_view own = key.substr(0, key.find('.'));
+        if (own != group) ImGui::TextDisabled("%s", std::string(own).c_str());
+        group = own;
+        ImGui::PushID(option.key);
+        const auto member = option.member(effects);
+        if (bool* const* b = std::get_if<bool*>(&member)) ImGui::Checkbox(option.label, *b);
+        if (float* const* f = std::get_if<float*>(&member)) ImGui::SliderFloat(option.label, *f, option.least, option.most, "%.2f");
+        if (i32* const* i = std::get_if<i32*>(&member)) {
+            if (option.choices.empty()) ImGui::SliderInt(option.label, *i, int(option.least), int(option.most));
+            else ImGui::Combo(option.label, *i, option.choices.data(), int(option.choices.size()));
+        }
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", option.help);
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+}
+
 MenuAction draw_pause_menu(Settings& settings) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, size, IM_COL32(0, 0, 0, 110));
@@ -121,9 +152,8 @@ MenuAction draw_pause_menu(Settings& settings) {
     ImGui::Checkbox("Full screen", &next.fullscreen);
     ImGui::SameLine();
     ImGui::Checkbox("Wait for the screen", &next.vsync);
-    ImGui::Checkbox("High quality", &next.high_quality);
-    ImGui::SameLine();
     ImGui::Checkbox("Invert mouse", &next.invert_y);
+    draw_effects(next.effects);
     ImGui::Separator();
     if (ImGui::Button("Save and quit", {-1, 0})) action = MenuAction::quit;
     ImGui::End();

@@ -57,6 +57,8 @@ u32 bytes_per_texel(u32 format) {
     case GL_RGBA4:
     case GL_RG8:
     case GL_R16F:
+    case GL_R16:
+    case GL_DEPTH_COMPONENT16:
         return 2;
     case GL_RGBA8:
     case GL_SRGB8_ALPHA8:
@@ -72,6 +74,8 @@ u32 bytes_per_texel(u32 format) {
     case GL_RGBA16F:
     case GL_DEPTH32F_STENCIL8:
     case GL_RG32UI:
+    case GL_RG32F:
+    case GL_RGBA16UI:
         return 8;
     case GL_RGBA32F:
         return 16;

@@ -9,24 +9,45 @@ static Vec4 with(Vec3 v, float w) {
     return {v.x, v.y, v.z, w};
 }
 
-static ViewUniforms view_uniforms(const scene::View& view, u32 width, u32 height) {
+static Mat4 projection(const scene::View& view, float aspect) {
+    return perspective_reversed_infinite(view.fov_y, aspect, kNearPlane) * view.rotation;
+}
+
+static ViewUniforms view_uniforms(const scene::View& view, const scene::View* before, u32 width, u32 height,
+                                  Vec2 jitter) {
     const float aspect = float(width) / float(height), t = std::tan(view.fov_y * 0.5f);
     const auto& m = view.rotation.m;
     const Vec3 right{m[0], m[4], m[8]}, up{m[1], m[5], m[9]}, forward{-m[2], -m[6], -m[10]};
+    const Vec2 shift{2 * jitter.x / float(width), 2 * jitter.y / float(height)}; // of the picture, ndc
     ViewUniforms u;
-    u.view_proj = perspective_reversed_infinite(view.fov_y, aspect, kNearPlane) * view.rotation;
+    u.view_proj = projection(view, aspect);
+    if (shift.x != 0 || shift.y != 0)
+        for (u32 column = 0; column < 4; ++column) {
+            auto& p = u.view_proj.m;
+            p[column * 4] += shift.x * p[column * 4 + 3];
+            p[column * 4 + 1] += shift.y * p[column * 4 + 3];
+        }
+    const scene::View& old = before ? *before : view;
+    u.previous = projection(old, aspect) * translation(view_from(old.eye.at, view.eye.at).v);
     u.fraction = with(view_from(corner_of(block_of(view.eye.at)), view.eye.at).v, kNearPlane);
     u.clip_plane = view.clip_plane;
     u.ray_right = with(right * (t * aspect), 2 * t / float(height));
     u.ray_up = with(up * t, view.underwater ? 1.0f : 0.0f);
-    u.ray_forward = with(forward, view.scale);
+    // A jittered picture shows at ndc what lies at ndc - shift.
+    u.ray_forward = with(forward - right * (t * aspect * shift.x) - up * (t * shift.y), view.scale);
+    const BlockPos eye = block_of(view.eye.at);
+    u.eye_block = {eye.x, eye.y, eye.z, 0};
     return u;
 }
 
-FrameUniforms make_frame_uniforms(const scene::FrameView& frame, bool background_on, Vec3 background) {
+FrameUniforms make_frame_uniforms(const scene::FrameView& frame, Vec2 jitter, const PreviousViews& before,
+                                  bool background_on, Vec3 background) {
     FrameUniforms u{};
+    const bool known = before.views.size() == frame.views.size() && before.width == frame.width &&
+                       before.height == frame.height;
     for (u32 i = 0; i < std::min<u32>(u32(frame.views.size()), kViewsMost); ++i)
-        u.views[i] = view_uniforms(frame.views[i], frame.width, frame.height);
+        u.views[i] = view_uniforms(frame.views[i], known ? &before.views[i] : nullptr, frame.width, frame.height,
+                                   jitter);
     const scene::SkyState& sky = frame.sky;
     u.sun_direction = with(sky.sun_direction, sky.stars);
     u.moon_direction = with(sky.moon_direction, 0);
@@ -41,6 +62,9 @@ FrameUniforms make_frame_uniforms(const scene::FrameView& frame, bool background
     u.misc = {frame.seconds, 1 / std::max(frame.view_distance, 1.0f), frame.gamma_exposure,
               sky.time / 24000.0f * 6.2831853f};
     u.background = with(background, background_on ? 1.0f : 0.0f);
+    u.jitter = {2 * jitter.x / w, 2 * jitter.y / h, 0, 0};
+    for (u32 i = 0; i < 9; ++i)
+        u.sky_sh[i] = with(sky.irradiance[i], 0);
     return u;
 }
 

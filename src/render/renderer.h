@@ -1,7 +1,7 @@
-// Renderer: draws FrameViews with OpenGL 4.5. It holds the sections' meshes, light and tints on the GPU; the passes are
-// free functions, a folder each (passes/). Use it on the thread that owns the context.
+// Renderer: draws FrameViews with OpenGL 4.5. It holds the sections' meshes, light and tints on the GPU; what is done
+// with them is a list of passes (pass_list.cpp), a folder each (passes/). Use it on the thread that owns the context.
 //
-//     VX_TRY_ASSIGN(auto renderer, Renderer::create({.quality = Quality::high}));
+//     VX_TRY_ASSIGN(auto renderer, Renderer::create({.effects = preset_effects(Preset::high)}));
 //     VX_TRY(renderer->load_textures(registry));
 //     renderer->sync_models(models);                      // after BlockModels::ensure, cheap when nothing is new
 //     renderer->set_section(at, dimension, mesh);         // as meshes arrive; then light and tints of the same section
@@ -12,6 +12,8 @@
 
 #include "base/result.h"
 #include "gfx/handles.h"
+#include "render/effects.h"
+#include "render/frame_stats.h"
 #include "render/image.h"
 #include "render/meshing/light_brick.h"
 #include "render/meshing/quad.h"
@@ -23,32 +25,24 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace vitrail::render {
 
-// low: for software OpenGL. high: normal maps, filtered minification, water that sees its depth, finer sky.
-enum class Quality : u8 { low, high };
-
 struct RendererOptions {
-    Quality quality = Quality::high;
+    Effects effects = preset_effects(Preset::high);
     u64 quad_bytes_start = 8u << 20; // the quad buffer doubles from here
+    std::string shader_folder = {};  // shaders are read from here and again when they change; empty: those built in
 };
 
 // Where a picture goes: 0 is the window; kOwnPicture the renderer's own target, read by read_pixels.
 inline constexpr u32 kOwnPicture = ~0u;
 
-struct FrameStats {
-    u32 sections = 0;             // held
-    u32 sections_visible = 0;     // after frustum and cave culling, with anything to draw
-    u32 draws = 0;                // commands in multi-draws
-    u64 quads = 0, triangles = 0; // drawn
-    u64 quads_held = 0;
-    u64 gpu_bytes = 0;                               // buffers, textures and targets, without the driver's padding
-    u64 cpu_bytes = 0;                               // what the renderer keeps of sections
-    double cull_ms = 0, submit_ms = 0, total_ms = 0; // CPU time of the last render(); software OpenGL draws inside
-    std::vector<std::pair<std::string, double>> passes_ms; // GPU time a pass, where `set_timing(true)`
+// A target's texels as floats (unsigned integers as they are), for tests: rows from the top, `channels` values a texel.
+struct TargetPixels {
+    u32 width = 0, height = 0, channels = 0;
+    std::vector<float> values;
+    const float* at(u32 x, u32 y) const { return &values[(std::size_t(y) * width + x) * channels]; }
 };
 
 // Draws the sections of every dimension it was given; view 0 of a frame decides what is seen.
@@ -85,7 +79,10 @@ public:
     Result<> render(const scene::FrameView& frame, u32 framebuffer = kOwnPicture);
     // The last picture drawn with kOwnPicture, RGB. Errors: not_found before the first.
     Result<Image> read_pixels();
-    // The number of the view that each pixel of the last frame belongs to, rows from the top (tests, picking).
+    // A target of the frame graph after the last frame: "depth", "color", "albedo", ... Errors: not_found.
+    Result<TargetPixels> read_target(const std::string& name);
+    // The number of the view that each pixel of the last frame belongs to, rows from the top. Errors: not_found, also
+    // where the effects need no G-buffer.
     Result<std::vector<u8>> read_view_numbers();
 
     // A state's picture for the hotbar, RGBA with premultiplied alpha, size x size, seen from above at a corner.
@@ -93,11 +90,16 @@ public:
                                            u32 size);
     Result<Image> read_texture(const gfx::Texture& texture); // RGBA
 
-    void set_quality(Quality quality);
-    Quality quality() const;
-    void set_cave_culling(bool on); // on from the start
-    void set_timing(bool on);       // fills FrameStats::passes_ms; waits for the GPU after each pass
-    // For tests: draws this (linear RGB) instead of the sky, without fog.
+    // Takes effect with the next frame; held inside their ranges. Errors: invalid_argument (a shader does not build; the
+    // effects stay as they were).
+    Result<> set_effects(const Effects& effects);
+    const Effects& effects() const;
+    // What temporal effects keep (exposure, history) is forgotten: the next frame stands for itself.
+    void forget_frames();
+    // Why the shaders of `shader_folder` as they are now do not build; empty where they do.
+    const std::string& shader_error() const;
+    void set_timing(bool on); // fills FrameStats::passes_ms; nothing waits for the answers
+    // For tests: draws this (linear RGB) instead of the sky, without fog, exposure and tone curve.
     void set_background(bool on, Vec3 color = {});
     const FrameStats& stats() const;
 

@@ -34,6 +34,9 @@ struct SkyState {
     Vec3 fog;               // color that far land fades to
     float stars = 0;        // 0..1
     Vec3 glow;              // light scattered around the sun at dawn and dusk
+    // Light of the whole sky on a surface, by its direction n: nine harmonics in the order 1, y, z, x, xy, yz, 3zz - 1,
+    // xz, xx - yy, constants taken in (sky.h: sky_irradiance).
+    Vec3 irradiance[9]{};
 };
 
 // Boxes outlined in the world: the picked block. Boxes are relative to the block's least corner, in blocks.

@@ -39,9 +39,19 @@ SkyState sky_at(float time) {
     sky.horizon =
         lerp(Vec3{0.0100f, 0.0160f, 0.0360f}, Vec3{0.36f, 0.56f, 0.86f}, day) + Vec3{0.20f, 0.055f, 0.010f} * dusk;
     sky.glow = Vec3{1.10f, 0.36f, 0.08f} * dusk + Vec3{0.30f, 0.26f, 0.18f} * (day * (1.0f - dusk));
+    // More from above; a little comes back from the ground in the sun's color.
+    sky.irradiance[0] = sky.ambient * 0.775f + sky.sun_light * 0.05f;
+    sky.irradiance[1] = sky.ambient * 0.225f - sky.sun_light * 0.05f;
     sky.fog = sky.horizon;
     sky.stars = night;
     return sky;
+}
+
+Vec3 sky_irradiance(const SkyState& sky, Vec3 n) {
+    const Vec3* c = sky.irradiance;
+    const Vec3 sum = c[0] + c[1] * n.y + c[2] * n.z + c[3] * n.x + c[4] * (n.x * n.y) + c[5] * (n.y * n.z) +
+                     c[6] * (3 * n.z * n.z - 1) + c[7] * (n.x * n.z) + c[8] * (n.x * n.x - n.y * n.y);
+    return {sum.x > 0 ? sum.x : 0, sum.y > 0 ? sum.y : 0, sum.z > 0 ? sum.z : 0};
 }
 
 Vec3 sky_color(const SkyState& sky, Vec3 d) {

@@ -13,4 +13,7 @@ SkyState sky_at(float time);
 // in its horizontal direction, so that land fades into the sky behind it.
 Vec3 sky_color(const SkyState& sky, Vec3 direction);
 
+// Light of the whole sky on a surface of this unit normal that sees all of its hemisphere.
+Vec3 sky_irradiance(const SkyState& sky, Vec3 normal);
+
 } // namespace vitrail::scene

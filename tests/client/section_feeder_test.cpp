@@ -52,7 +52,7 @@ struct FeederTest : testing::Test {
     }
     void open(unsigned workers, std::optional<WorldPos> eye = {}) {
         close();
-        auto drawn_by = render::Renderer::create({.quality = render::Quality::low});
+        auto drawn_by = render::Renderer::create({.effects = render::preset_effects(render::Preset::low)});
         ASSERT_TRUE(drawn_by) << drawn_by.error().message;
         renderer = std::move(*drawn_by);
         client::LocalGameOptions options;

@@ -40,7 +40,7 @@ protected:
 
     struct Shot {
         const char* name;
-        Quality quality;
+        Preset preset;
         float time, yaw, pitch;
         double x, up, z; // up: above the ground there
         bool underwater = false, trees = true;
@@ -51,7 +51,7 @@ protected:
                          << " filters textures differently";
         bench::SampleScene scene(4, shot.trees);
         scene.registry.content_roots = {test_content()};
-        auto renderer = make_renderer(shot.quality);
+        auto renderer = make_renderer(shot.preset);
         ASSERT_TRUE(renderer);
         scene.give(*renderer);
         ASSERT_TRUE(renderer->load_textures(scene.registry));
@@ -69,22 +69,22 @@ protected:
 };
 
 TEST_F(Golden, LakeByDayLow) {
-    shoot({"lake_day_low", Quality::low, 6000, -60, 18, 30.5, 14, -40.5});
+    shoot({"lake_day_low", Preset::low, 6000, -60, 18, 30.5, 14, -40.5});
 }
 TEST_F(Golden, LakeByDayHigh) {
-    shoot({"lake_day_high", Quality::high, 4000, -60, 18, 30.5, 14, -40.5});
+    shoot({"lake_day_high", Preset::high, 4000, -60, 18, 30.5, 14, -40.5});
 }
 TEST_F(Golden, Sunset) {
-    shoot({"sunset", Quality::high, 12000, 90, 3, 30.5, 14, -40.5});
+    shoot({"sunset", Preset::high, 12000, 90, 3, 30.5, 14, -40.5});
 }
 TEST_F(Golden, NightWithLamps) {
-    shoot({"night_lamps", Quality::high, 18500, 10, 14, 4.5, 6, 4.5, false, false});
+    shoot({"night_lamps", Preset::high, 18500, 10, 14, 4.5, 6, 4.5, false, false});
 }
 TEST_F(Golden, HutByMorning) {
-    shoot({"hut_morning", Quality::low, 1500, 10, 14, 4.5, 6, 4.5, false, false});
+    shoot({"hut_morning", Preset::low, 1500, 10, 14, 4.5, 6, 4.5, false, false});
 }
 TEST_F(Golden, UnderWater) {
-    shoot({"under_water", Quality::high, 6000, -20, 2, 60.5, -4, -30.5, true});
+    shoot({"under_water", Preset::high, 6000, -20, 2, 60.5, -4, -30.5, true});
 }
 
 } // namespace vitrail::render

@@ -95,8 +95,8 @@ protected:
     }
     void TearDown() override { EXPECT_EQ(gfx::debug_error_count(), errors_before_) << "OpenGL reported errors"; }
 
-    static std::unique_ptr<Renderer> make_renderer(Quality quality = Quality::low) {
-        auto made = Renderer::create({.quality = quality, .quad_bytes_start = 16384}); // small, so that it grows
+    static std::unique_ptr<Renderer> make_renderer(Preset preset = Preset::low) {
+        auto made = Renderer::create({.effects = preset_effects(preset), .quad_bytes_start = 16384}); // small, so that it grows
         EXPECT_TRUE(made) << made.error().message;
         return made ? std::move(*made) : nullptr;
     }

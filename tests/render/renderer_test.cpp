@@ -36,12 +36,14 @@ static SectionMesh mesh_of(QuadPass pass, std::vector<std::pair<u32, Quad>> quad
     return mesh;
 }
 
-TEST_F(RendererTest, BuildsBothQualities) {
-    for (Quality q : {Quality::low, Quality::high})
-        EXPECT_TRUE(make_renderer(q));
+TEST_F(RendererTest, BuildsEveryPreset) {
     auto renderer = make_renderer();
-    renderer->set_quality(Quality::high);
-    EXPECT_EQ(renderer->quality(), Quality::high);
+    ASSERT_TRUE(renderer);
+    for (u32 i = 0; i < u32(Preset::count); ++i) {
+        const Result<> set = renderer->set_effects(preset_effects(Preset(i)));
+        EXPECT_TRUE(set) << preset_name(Preset(i)) << ": " << set.error().message;
+        EXPECT_EQ(preset_of(renderer->effects()), Preset(i));
+    }
 }
 
 // The same scene far away on each axis gives the same picture, byte for byte.
@@ -51,12 +53,12 @@ TEST_F(RendererTest, EveryPlaceLooksTheSame) {
     bench::SampleScene scene(2);
     scene.registry.content_roots = {test_content()};
     const double up = scene.ground(20, 24) + 5;
-    for (Quality quality : {Quality::low, Quality::high}) {
+    for (Preset preset : {Preset::low, Preset::high}) {
         Image first;
         for (ChunkPos base :
              {ChunkPos{0, 0, 0}, ChunkPos{far, 0, 0}, ChunkPos{-far, 0, 0}, ChunkPos{0, far, 0}, ChunkPos{0, -far, 0},
               ChunkPos{0, 0, far}, ChunkPos{0, 0, -far}, ChunkPos{far, -far, far}}) {
-            auto renderer = make_renderer(quality);
+            auto renderer = make_renderer(preset);
             ASSERT_TRUE(renderer);
             scene.give(*renderer, base);
             ASSERT_TRUE(renderer->load_textures(scene.registry));
@@ -144,7 +146,7 @@ TEST_F(RendererTest, TranslucentQuadsAreSorted) {
 TEST_F(RendererTest, ResizesAtAnyTime) {
     bench::SampleScene scene(1);
     scene.registry.content_roots = {test_content()};
-    auto renderer = make_renderer(Quality::high);
+    auto renderer = make_renderer(Preset::high);
     ASSERT_TRUE(renderer);
     scene.give(*renderer);
     ASSERT_TRUE(renderer->load_textures(scene.registry));
@@ -229,7 +231,7 @@ TEST_F(RendererTest, RemovedSectionsAreGone) {
 }
 
 TEST_F(RendererTest, ClipPlanesCutAndViewsAreNumbered) {
-    auto renderer = make_renderer();
+    auto renderer = make_renderer(Preset::high);
     BlockRegistry registry;
     registry.content_roots = {test_content()};
     const TextureId white = registry.texture_id("white");

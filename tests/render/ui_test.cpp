@@ -12,7 +12,7 @@ namespace vitrail::render {
 TEST(Ui, DrawsOverThePictureInAWindow) {
     auto window = platform::Window::create({.width = 320, .height = 200, .vsync = false, .hidden = true});
     if (!window) GTEST_SKIP() << window.error().message;
-    auto renderer = Renderer::create({.quality = Quality::low});
+    auto renderer = Renderer::create({.effects = preset_effects(Preset::low)});
     ASSERT_TRUE(renderer) << renderer.error().message;
     auto ui = UiLayer::create(**window);
     ASSERT_TRUE(ui) << ui.error().message;

@@ -1,11 +1,13 @@
 // What every pass knows of the frame; FrameUniforms in render/frame_uniforms.h writes it.
 struct ViewData {
-    mat4 view_proj;   // camera-relative world to clip space, reversed depth
+    mat4 view_proj;   // camera-relative world to clip space, reversed depth; jitter included
+    mat4 previous;    // camera-relative place of this frame to clip space of the frame before, without jitter
     vec4 fraction;    // xyz: the eye inside its block; w: near plane, blocks
     vec4 clip_plane;  // camera-relative
     vec4 ray_right;   // xyz: with ray_up and ray_forward the ray of a point of the screen, forward part 1;
     vec4 ray_up;      // w of ray_right: blocks a pixel at distance 1; of ray_up: 1 where the eye is under water
-    vec4 ray_forward;
+    vec4 ray_forward; // w: scale of the view
+    ivec4 eye_block;  // xyz: add a camera-relative place and fraction for a place in the world (modulo a power of two)
 };
 layout(std140, binding = 0) uniform Frame {
     ViewData views[8];
@@ -20,4 +22,6 @@ layout(std140, binding = 0) uniform Frame {
     vec4 screen;          // width, height, 1 / width, 1 / height
     vec4 misc;            // seconds, 1 / view distance, exposure, star and cloud turn (radians)
     vec4 background;      // w: 1 where it replaces the sky (tests)
+    vec4 jitter;          // xy: of this frame, ndc
+    vec4 sky_sh[9];       // irradiance of the sky, see common/ambient.glsl
 };

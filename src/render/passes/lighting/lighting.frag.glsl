@@ -1,8 +1,13 @@
 // Light of every pixel that shows something, once a screen; what differs between views comes from views[view number].
+#define GLOSS
 #include "common/frame.glsl"
 #include "common/sky.glsl"
 #include "common/color.glsl"
 #include "common/normal.glsl"
+#include "common/surface.glsl"
+#include "common/ambient.glsl"
+#include "common/fog.glsl"
+#include "shadow/shadow.glsl"
 #include "lighting/shade.glsl"
 
 layout(location = 0) in vec2 v_ndc;
@@ -10,23 +15,37 @@ layout(binding = 0) uniform sampler2D t_albedo;
 layout(binding = 1) uniform sampler2D t_light;
 layout(binding = 2) uniform usampler2D t_surface;
 layout(binding = 3) uniform sampler2D t_depth;
+#ifdef SSAO
+layout(binding = 8) uniform sampler2D t_ao;
+#endif
 layout(location = 0) out vec4 o_color;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
-    vec4 light = texelFetch(t_light, pixel, 0);
     uvec4 surface = texelFetch(t_surface, pixel, 0);
     float depth = texelFetch(t_depth, pixel, 0).r;
-    ViewData view = views[surface.z & 7u];
+    uint number = surface.z & 7u;
+    ViewData view = views[number];
     vec3 ray = view.ray_forward.xyz + view.ray_right.xyz * v_ndc.x + view.ray_up.xyz * v_ndc.y;
-    float ray_length2 = dot(ray, ray);
-    float per_length = inversesqrt(ray_length2);
-    vec3 towards = ray * per_length;
-    float away = view.fraction.w / max(depth, 1e-9) * ray_length2 * per_length;
+    float per_length = inversesqrt(dot(ray, ray));
+    vec3 place = ray * (view.fraction.w / max(depth, 1e-9));
+    float away = length(place);
 
-    vec3 n = normal_from_bytes(surface.xy);
-    float roughness = float(surface.w >> 4) * (1.0 / 15.0), emission = float(surface.w & 15u) * (1.0 / 15.0);
-    vec3 color = shade(linear_from_srgb(albedo.rgb), n, light, albedo.a, emission, roughness, towards);
-    o_color = vec4(apply_fog(color, away, towards, view.ray_up.w, light.a), 1.0);
+    Surface s;
+    s.albedo = linear_from_srgb(albedo.rgb);
+    s.normal = normal_from_bytes(surface.xy);
+    uint face = surface.z >> 3 & 7u;
+    s.face = face < 6u ? axis_of_face(face) : s.normal;
+    s.plant = face == kFacePlant;
+    s.light = texelFetch(t_light, pixel, 0);
+    s.ao = albedo.a;
+    s.roughness = float(surface.w >> 4) * (1.0 / 15.0);
+    s.emission = float(surface.w & 15u) * (1.0 / 15.0);
+#ifdef SSAO
+    s.ao *= texelFetch(t_ao, pixel, 0).r;
+#endif
+    vec3 towards = ray * per_length;
+    vec3 color = shade(s, place, towards, number);
+    o_color = vec4(apply_fog(color, away, towards, view.ray_up.w, s.light.a), 1.0);
 }

@@ -4,7 +4,7 @@
 #include "common/sky.glsl"
 
 layout(location = 0) in vec2 v_ndc;
-layout(binding = 0) uniform sampler2D t_noise;
+layout(binding = 10) uniform sampler2D t_noise;
 layout(location = 0) out vec4 o_color;
 
 vec3 turned(vec3 d, float angle) { // about the axis of the sun's path, z

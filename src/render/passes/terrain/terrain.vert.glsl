@@ -1,4 +1,5 @@
 // Pulls 8-byte quads (render/meshing/quad.h) by gl_VertexID. MODEL: 0 cube quads, 1 model quads, 2 either.
+// SMOOTH: blended tints. SWAY: wind. NORMAL_MAPS, LIT, LIQUID: the fragment needs the place.
 #include "common/frame.glsl"
 #include "common/normal.glsl"
 
@@ -13,8 +14,8 @@ layout(location = 1) uniform vec4 u_light_atlas; // xyz: 1 / texels; w: bricks a
 layout(location = 0) out vec3 v_uv_ao;
 layout(location = 1) out vec3 v_light_at;
 layout(location = 2) out vec3 v_tint;
-layout(location = 3) flat out uvec2 v_surface; // layer; normal bytes, view, flags
-#if defined(HIGH) || defined(LIQUID)
+layout(location = 3) flat out uvec2 v_surface; // layer; normal bytes, view << 16, face << 19, liquid << 24
+#if defined(NORMAL_MAPS) || defined(LIT) || defined(LIQUID)
 layout(location = 4) out vec3 v_position;
 #endif
 #ifdef LIQUID
@@ -32,7 +33,7 @@ vec3 tint_of(uint kind, uint fixed_index, uint slot, vec2 xz) {
     if (kind == 0u) return vec3(1.0);
     if (kind == 4u) return unpack_color(fixed_tints[fixed_index]);
     uint base = slot * 108u + (kind - 1u) * 36u;
-#ifdef HIGH
+#ifdef SMOOTH
     vec2 p = clamp(xz * 0.25 + 0.5, 0.0, 4.999);
     uvec2 i = uvec2(p);
     vec2 f = p - vec2(i);
@@ -57,6 +58,7 @@ void main() {
     vec3 lit_at;
     vec3 grow = vec3(0.0);
     bool gone = false;
+    uint what = 6u; // kFaceModel
 #if MODEL == 2
     bool is_model = (q.x >> 23 & 1u) != 0u;
     if (!is_model)
@@ -64,6 +66,7 @@ void main() {
 #if MODEL != 1
     {
         uint face = q.x >> 20 & 7u;
+        what = face;
         uint axis = face >> 1;
         bool positive = (face & 1u) != 0u;
         uint a = q.x >> 24;
@@ -111,9 +114,12 @@ void main() {
         bool away = dot(normal, from_eye) > 0.0;
         gone = away && (flags & 1u) == 0u;
         if (away) normal = -normal;
-        if ((flags & 2u) != 0u) normal = vec3(0.0, 1.0, 0.0);
+        if ((flags & 2u) != 0u) {
+            normal = vec3(0.0, 1.0, 0.0);
+            what = 7u; // kFacePlant
+        }
         lit_at = clamp(local + normal * 0.25, -0.5, 16.5);
-#ifdef HIGH
+#ifdef SWAY
         if ((q.y >> 27 & 1u) != 0u) {
             float phase = misc.x * 1.7 + (local.x * 3.0 + local.z * 5.0) * 0.392699082; // whole waves a section
             local.xz += inside.y * 0.05 * vec2(sin(phase), sin(phase * 0.5 + local.x * 1.570796327));
@@ -136,8 +142,8 @@ void main() {
     v_light_at = (vec3(brick) * 18.0 + lit_at.xzy + 1.0) * u_light_atlas.xyz;
     v_tint = tint_of(q.y >> 16 & 7u, q.y >> 19 & 255u, uint(in_section.w) >> 16, local.xz);
     uvec2 n = normal_bytes(normal);
-    v_surface = uvec2(q.y & 0xffffu, n.x | n.y << 8 | u_view << 16 | ((q.y >> 28 & 1u) != 0u ? kFlagLiquid << 24 : 0u));
-#if defined(HIGH) || defined(LIQUID)
+    v_surface = uvec2(q.y & 0xffffu, n.x | n.y << 8 | u_view << 16 | what << 19 | ((q.y >> 28 & 1u) != 0u ? kFlagLiquid << 24 : 0u));
+#if defined(NORMAL_MAPS) || defined(LIT) || defined(LIQUID)
     v_position = position;
 #endif
 #ifdef LIQUID

@@ -1,74 +1,88 @@
 #include "render/passes/terrain/terrain_pass.h"
 
-#include "render/shader_library.h"
-
 #include <epoxy/gl.h>
 
 namespace vitrail::render {
 
-Result<TerrainPrograms> make_terrain_programs(bool high) {
-    TerrainPrograms programs;
+std::vector<std::string> terrain_defines(const Effects& effects) {
+    std::vector<std::string> defines;
+    if (effects.surface.smooth) defines.push_back("SMOOTH");
+    if (effects.surface.normal_maps) defines.push_back("NORMAL_MAPS");
+    if (effects.surface.sway) defines.push_back("SWAY");
+    return defines;
+}
+
+Result<> TerrainPass::build(const BuildContext& context) {
     struct Kind {
         DrawKind kind;
-        const char* name;
-        const char* fragment;
         std::vector<std::string> defines;
     };
     const Kind kinds[] = {
-        {DrawKind::opaque_cubes, "terrain cubes", "terrain/terrain.frag.glsl", {"MODEL 0"}},
-        {DrawKind::opaque_models, "terrain models", "terrain/terrain.frag.glsl", {"MODEL 1"}},
-        {DrawKind::cutout_cubes, "cutout cubes", "terrain/terrain.frag.glsl", {"MODEL 0", "CUTOUT"}},
-        {DrawKind::cutout_models, "cutout models", "terrain/terrain.frag.glsl", {"MODEL 1", "CUTOUT"}},
-        {DrawKind::translucent, "translucent terrain", "water/water.frag.glsl", {"MODEL 2", "LIQUID"}},
+        {DrawKind::opaque_cubes, {"MODEL 0"}},
+        {DrawKind::opaque_models, {"MODEL 1"}},
+        {DrawKind::cutout_cubes, {"MODEL 0", "CUTOUT"}},
+        {DrawKind::cutout_models, {"MODEL 1", "CUTOUT"}},
     };
     for (const Kind& kind : kinds) {
-        std::vector<std::string> defines = kind.defines;
-        if (high) defines.push_back("HIGH");
-        VX_TRY_ASSIGN(programs.kinds[u32(kind.kind)],
-                      load_program(kind.name, "terrain/terrain.vert.glsl", kind.fragment, std::move(defines)));
+        std::vector<std::string> defines = terrain_defines(context.effects);
+        defines.insert(defines.end(), kind.defines.begin(), kind.defines.end());
+        if (!context.gbuffer) defines.push_back("LIT");
+        VX_TRY_ASSIGN(programs_[u32(kind.kind)],
+                      context.shaders.program("terrain/terrain.vert.glsl", "terrain/terrain.frag.glsl", defines));
     }
-    return programs;
+    return {};
 }
 
-static void bind(const TerrainInputs& in) {
-    glBindVertexArray(in.vertex_array);
-    glVertexArrayVertexBuffer(in.vertex_array, 0, in.records, GLintptr(in.records_offset), sizeof(SectionRecord));
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, in.commands);
-    const u32 storage[4] = {in.quads, in.tints, in.fixed_tints, in.models};
-    for (u32 i = 0; i < 4; ++i)
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, storage[i]);
-    const u32 textures[4] = {in.albedo, in.light, in.material, in.depth};
-    glBindTextures(0, 4, textures);
-    glFrontFace(in.mirrored ? GL_CW : GL_CCW);
+void TerrainPass::declare(DeclareContext& c) {
+    // Stencil masks the views of portals; without any, 4 bytes a pixel are saved.
+    c.graph.add_target({.name = "depth", .format = u32(c.stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F)});
+    c.graph.add_target({.name = "color", .format = GL_RGBA16F, .linear = true});
+    std::vector<std::string> writes{"color", "depth"};
+    if (c.gbuffer) {
+        c.graph.add_target({.name = "albedo", .format = GL_RGBA8});
+        c.graph.add_target({.name = "light", .format = GL_RGBA8});
+        c.graph.add_target({.name = "surface", .format = GL_RGBA8UI});
+        writes = {"albedo", "light", "surface", "depth"};
+    }
+    c.graph.add_pass({"terrain", {}, writes, [this](const gfx::PassContext& p) { draw(p.graph); }, ""});
 }
 
-static void draw(const TerrainPrograms& programs, const TerrainInputs& in, DrawKind kind, bool cull) {
-    const TerrainInputs::Range range = in.ranges[u32(kind)];
-    if (range.count == 0) return;
-    const u32 program = programs.kinds[u32(kind)].name();
-    glUseProgram(program);
-    glProgramUniform1ui(program, 0, in.view);
-    glProgramUniform4f(program, 1, in.light_atlas.x, in.light_atlas.y, in.light_atlas.z, in.light_atlas.w);
-    if (cull)
-        glEnable(GL_CULL_FACE);
+void for_each_view(const FrameContext& frame, const std::function<void(u32, const ViewDraws&)>& body) {
+    for (u32 i = 0; i < frame.views.size(); ++i) {
+        if (frame.views[i].list.records.empty()) continue;
+        if (frame.stencil) {
+            glEnable(GL_STENCIL_TEST);
+            glStencilFunc(GL_EQUAL, GLint(i), 0xff);
+            glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+        }
+        const Vec4 p = frame.frame->views[i].clip_plane;
+        const bool clips = p.x != 0 || p.y != 0 || p.z != 0;
+        if (clips) glEnable(GL_CLIP_DISTANCE0);
+        body(i, frame.views[i]);
+        if (clips) glDisable(GL_CLIP_DISTANCE0);
+    }
+    glDisable(GL_STENCIL_TEST);
+}
+
+void TerrainPass::draw(const gfx::FrameGraph& graph) {
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    const float far = 0;
+    const u32 framebuffer = graph.framebuffer("terrain");
+    if (frame_->stencil)
+        glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, far, 0);
     else
-        glDisable(GL_CULL_FACE);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(range.offset),
-                                GLsizei(range.count), 0);
-}
-
-void draw_terrain_opaque(const TerrainPrograms& programs, const TerrainInputs& in) {
-    bind(in);
-    draw(programs, in, DrawKind::opaque_cubes, true);
-    // Models decide by quad which look away (kTwoSided); cutout cubes show their far side through their holes.
-    draw(programs, in, DrawKind::opaque_models, false);
-    draw(programs, in, DrawKind::cutout_cubes, false);
-    draw(programs, in, DrawKind::cutout_models, false);
-}
-
-void draw_terrain_translucent(const TerrainPrograms& programs, const TerrainInputs& in) {
-    bind(in);
-    draw(programs, in, DrawKind::translucent, false);
+        glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+    // Colors need no clearing: only pixels with a depth are ever read.
+    for_each_view(*frame_, [&](u32, const ViewDraws& draws) {
+        bind_terrain(draws.inputs);
+        draw_kind(*programs_[u32(DrawKind::opaque_cubes)], draws.inputs, DrawKind::opaque_cubes, true);
+        // Models decide by quad which look away (kTwoSided); cutout cubes show their far side through their holes.
+        for (DrawKind kind : {DrawKind::opaque_models, DrawKind::cutout_cubes, DrawKind::cutout_models})
+            draw_kind(*programs_[u32(kind)], draws.inputs, kind, false);
+    });
 }
 
 } // namespace vitrail::render

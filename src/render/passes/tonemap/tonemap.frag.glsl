@@ -10,7 +10,10 @@ void main() {
     // sRGB's curve without a power function: within 0.003 of it.
     vec3 r = sqrt(mapped), rr = sqrt(r);
     vec3 encoded = max(0.662002687 * r + 0.684122060 * rr - 0.323583601 * sqrt(rr) - 0.0225411470 * mapped, 0.0);
+#ifdef DITHER
     // Interleaved gradient noise (Jimenez 2014), one step of 8 bits.
     float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
-    o_color = vec4(encoded + (noise - 0.5) * (1.0 / 255.0) * (1.0 - background.w), 1.0);
+    encoded += (noise - 0.5) * (1.0 / 255.0) * (1.0 - background.w);
+#endif
+    o_color = vec4(encoded, 1.0);
 }

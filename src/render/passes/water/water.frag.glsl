@@ -1,8 +1,13 @@
+#define GLOSS
 // Translucent surfaces, drawn forward over the lit picture, back to front: water, glass, ice, crystals.
 #include "common/frame.glsl"
 #include "common/sky.glsl"
 #include "common/color.glsl"
 #include "common/normal.glsl"
+#include "common/surface.glsl"
+#include "common/ambient.glsl"
+#include "common/fog.glsl"
+#include "shadow/shadow.glsl"
 #include "lighting/shade.glsl"
 
 layout(location = 0) in vec3 v_uv_ao;
@@ -13,7 +18,7 @@ layout(location = 4) in vec3 v_position;
 layout(location = 5) in vec3 v_local;
 layout(binding = 0) uniform sampler2DArray t_albedo;
 layout(binding = 1) uniform sampler3D t_light;
-#ifdef HIGH
+#ifdef SEES_DEPTH
 layout(binding = 3) uniform sampler2D t_depth; // of what lies behind
 #endif
 // Two sources of one blend: what is added, and by color what is let through of the light behind. Water and colored
@@ -43,11 +48,13 @@ void main() {
     vec3 towards = v_position * per_length;
     ViewData view = views[v_surface.y >> 16 & 7u];
 
+#ifdef WAVES
     if (liquid) {
         // Waves smaller than a pixel would only glitter.
         vec2 slope = wave_slope(v_local.xz, misc.x) / (1.0 + away * away * 0.0004);
         n = normalize(n + vec3(slope.x, 0.0, slope.y) * (abs(n.y) > 0.5 ? 1.0 : 0.0));
     }
+#endif
     float facing = abs(dot(n, towards));
     float graze = 1.0 - facing;
     float g2 = graze * graze;
@@ -56,8 +63,18 @@ void main() {
     // Water's own color is the light it scatters: never as pure as a painted tint.
     if (liquid) base = mix(base, vec3(0.02, 0.12, 0.16) + dot(base, vec3(0.25, 0.55, 0.20)) * vec3(0.35, 0.60, 0.70), 0.6);
     // The sun in the water is the mirror below; counted as gloss too it would be a white sheet.
-    vec3 body = shade(base, n, light, v_uv_ao.z, 0.0, liquid ? 1.0 : 0.1, towards);
-#ifdef HIGH
+    uint face = v_surface.y >> 19 & 7u, number = v_surface.y >> 16 & 7u;
+    Surface s;
+    s.albedo = base;
+    s.normal = n;
+    s.face = face < 6u ? axis_of_face(face) : n;
+    s.plant = false;
+    s.light = light;
+    s.ao = v_uv_ao.z;
+    s.roughness = liquid ? 1.0 : 0.1;
+    s.emission = 0.0;
+    vec3 body = shade(s, v_position, towards, number);
+#ifdef SEES_DEPTH
     float behind = view.fraction.w / max(texelFetch(t_depth, ivec2(gl_FragCoord.xy), 0).r, 1e-9);
     float here = view.fraction.w / max(gl_FragCoord.z, 1e-9);
     // Along the ray, not along the view's axis.

@@ -1,0 +1,25 @@
+// What a frame took; for the debug overlay, --stats, benchmarks and tests.
+#pragma once
+
+#include "base/types.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vitrail::render {
+
+struct FrameStats {
+    u32 sections = 0;            // held
+    u32 sections_in_frustum = 0; // with anything to draw, of view 0
+    u32 sections_visible = 0;    // drawn: after frustum and all culling
+    u32 draws = 0;                // commands in multi-draws
+    u64 quads = 0, triangles = 0; // drawn
+    u64 quads_held = 0;
+    u64 gpu_bytes = 0;                               // buffers, textures and targets, without the driver's padding
+    u64 cpu_bytes = 0;                               // what the renderer keeps of sections
+    double cull_ms = 0, submit_ms = 0, total_ms = 0; // CPU time of the last render(); software OpenGL draws inside
+    std::vector<std::pair<std::string, double>> passes_ms; // GPU time a pass, some frames old, with set_timing(true)
+};
+
+} // namespace vitrail::render

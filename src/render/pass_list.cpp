@@ -1,0 +1,26 @@
+#include "render/pass_list.h"
+
+#include "render/passes/lighting/lighting_pass.h"
+#include "render/passes/outline/outline_pass.h"
+#include "render/passes/sky/sky_pass.h"
+#include "render/passes/terrain/terrain_pass.h"
+#include "render/passes/tonemap/tonemap_pass.h"
+#include "render/passes/water/water_pass.h"
+
+namespace vitrail::render {
+
+std::vector<std::unique_ptr<RenderPass>> make_passes() {
+    std::vector<std::unique_ptr<RenderPass>> passes;
+    // Solid surfaces.
+    passes.push_back(std::make_unique<TerrainPass>());
+    passes.push_back(std::make_unique<LightingPass>());
+    passes.push_back(std::make_unique<SkyPass>());
+    // What lets light through, and the air.
+    passes.push_back(std::make_unique<WaterPass>());
+    passes.push_back(std::make_unique<OutlinePass>());
+    // The eye.
+    passes.push_back(std::make_unique<TonemapPass>());
+    return passes;
+}
+
+} // namespace vitrail::render

@@ -1,0 +1,177 @@
+// Renderer::render: one frame, from the frame view to the framebuffer.
+#include "render/renderer_impl.h"
+
+#include "base/clock.h"
+#include "base/log.h"
+
+#include <algorithm>
+#include <cstring>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+namespace vitrail::render {
+
+constexpr u32 kTranslucentQuadsSortedAFrame = 30000;
+
+Result<> Renderer::Impl::declare(bool stencil) {
+    const bool timing = !graph.times_ms().empty();
+    graph.clear();
+    graph.add_external("screen");
+    DeclareContext declaring{graph, effects, needs_gbuffer(effects), stencil};
+    for (const auto& pass : passes)
+        pass->declare(declaring);
+    VX_TRY(graph.compile());
+    if (timing) graph.set_timing(true);
+    declared = true, declared_stencil = stencil;
+    return {};
+}
+
+u32 Renderer::Impl::own_framebuffer(u32 width, u32 height) {
+    if (picture.width != width || picture.height != height) {
+        picture = gfx::make_texture_2d(GL_RGBA8, width, height);
+        const gfx::Texture* colors[] = {&picture};
+        picture_framebuffer = gfx::make_framebuffer(colors, nullptr);
+    }
+    picture_drawn = true;
+    return picture_framebuffer.name();
+}
+
+TerrainInputs Renderer::Impl::terrain_inputs() const {
+    TerrainInputs in;
+    in.vertex_array = terrain_array.name();
+    in.quads = sections.quad_buffer(), in.tints = sections.tints().buffer();
+    in.fixed_tints = fixed_tints.name(), in.models = models.name();
+    in.albedo = textures.albedo().name(), in.material = textures.material().name();
+    const gfx::Texture& atlas = sections.light().texture();
+    in.light = atlas.name();
+    in.light_atlas = {1.0f / float(atlas.width), 1.0f / float(atlas.height), 1.0f / float(atlas.depth),
+                      float(LightAtlas::kRow)};
+    return in;
+}
+
+void Renderer::Impl::prepare_view(u32 index, const scene::View& view) {
+    ViewDraws& d = frame.views[index];
+    const scene::FrameView& of = *frame.frame;
+    cullers[index].find_visible(sections, view, float(of.width) / float(of.height), of.view_distance,
+                                effects.culling.caves && index == 0, d.visible);
+    // Nearest sections first, as many as the budget allows; the rest keep their old order for a frame.
+    u32 sorted = 0;
+    for (const VisibleSection& v : d.visible) {
+        if (v.section->translucent.size() < 2) continue;
+        auto cell = [](i32 o) { return i8(std::clamp(-o, -1, 16)); };
+        sorted += sections.sort_translucent(*v.section, {cell(v.offset.x), cell(v.offset.y), cell(v.offset.z)});
+        if (sorted > kTranslucentQuadsSortedAFrame) break;
+    }
+    build_draw_list(d.visible, effects.surface.smooth, d.list);
+    d.inputs = upload_draws(frame, d.list, index);
+    d.inputs.mirrored = view.mirrored;
+    for (const auto& commands : d.list.commands)
+        stats.draws += u32(commands.size());
+    stats.sections_visible += u32(d.list.records.size());
+    stats.quads += d.list.quads;
+}
+
+// What the next frame may take from this one.
+void Renderer::Impl::keep_views(const scene::FrameView& of) {
+    before.views = of.views;
+    before.width = of.width, before.height = of.height;
+    before_seconds = of.seconds;
+}
+
+// The eye stayed near: what the last frame saw can be used.
+static bool same_place(const scene::FrameView& now, const PreviousViews& before) {
+    if (before.views.size() != now.views.size() || before.width != now.width || before.height != now.height)
+        return false;
+    for (std::size_t i = 0; i < now.views.size(); ++i) {
+        const scene::View &a = now.views[i], &b = before.views[i];
+        if (a.eye.dimension != b.eye.dimension || a.scale != b.scale || a.mirrored != b.mirrored) return false;
+        const Vec3 step = view_from(b.eye.at, a.eye.at).v;
+        if (dot(step, step) > 16 * 16) return false;
+    }
+    return true;
+}
+
+Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
+    Impl& impl = *impl_;
+    if (view.views.empty()) return fail(ErrorCode::invalid_argument, "a frame without a view");
+    if (view.width == 0 || view.height == 0 || view.width > 16384 || view.height > 16384)
+        return fail(ErrorCode::invalid_argument,
+                    fmt::format("a picture of {}x{} cannot be drawn", view.width, view.height));
+    const u64 start = now_ns();
+    if (impl.shaders.changed()) {
+        const Result<> built = impl.build(impl.effects);
+        impl.shader_error = built ? "" : built.error().message;
+        if (!built) log_warning(impl.shader_error);
+    }
+    const bool stencil = view.views.size() > 1;
+    if (!impl.declared || stencil != impl.declared_stencil) VX_TRY(impl.declare(stencil));
+    VX_TRY(impl.graph.resize(view.width, view.height));
+
+    FrameContext& frame = impl.frame;
+    FrameStats& stats = impl.stats;
+    stats.draws = stats.sections_visible = stats.sections_in_frustum = 0;
+    stats.quads = 0;
+    frame.frame = &view;
+    frame.effects = &impl.effects;
+    frame.context = &impl.context;
+    frame.jitter = {};
+    frame.continues = same_place(view, impl.before);
+    frame.seconds_since = frame.continues ? std::clamp(view.seconds - impl.before_seconds, 0.0f, 1.0f) : 0.0f;
+    frame.stencil = stencil;
+    frame.sections = &impl.sections;
+    frame.textures = &impl.textures;
+    frame.ring = &impl.ring;
+    frame.plain_array = impl.plain_array.name();
+    frame.noise = impl.noise.name();
+    frame.target_framebuffer =
+        framebuffer == kOwnPicture ? impl.own_framebuffer(view.width, view.height) : framebuffer;
+    frame.stats = &stats;
+    for (const auto& pass : impl.passes)
+        pass->begin(frame);
+
+    impl.ring.begin_frame();
+    frame.uniforms = make_frame_uniforms(view, frame.jitter, frame.continues ? impl.before : PreviousViews{},
+                                         impl.background_on, impl.background);
+    impl.textures.animate(view.seconds);
+    frame.terrain = impl.terrain_inputs();
+    frame.views.resize(std::min<std::size_t>(view.views.size(), kViewsMost));
+    for (u32 i = 0; i < frame.views.size(); ++i)
+        impl.prepare_view(i, view.views[i]);
+    const u64 culled = now_ns();
+
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glBlendEquation(GL_FUNC_ADD);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    for (u32 unit = 0; unit < 16; ++unit)
+        glBindSampler(unit, 0); // a user interface may have left one
+    for (const auto& pass : impl.passes)
+        pass->prepare(frame);
+    const auto slice = impl.ring.allocate(sizeof frame.uniforms, 256);
+    std::memcpy(slice.data, &frame.uniforms, sizeof frame.uniforms);
+    glBindBufferRange(GL_UNIFORM_BUFFER, 0, slice.buffer, GLintptr(slice.offset), sizeof frame.uniforms);
+    impl.graph.execute();
+    impl.ring.end_frame();
+    impl.keep_views(view);
+    ++frame.number;
+
+    stats.sections = u32(impl.sections.all().size());
+    stats.triangles = stats.quads * 2;
+    stats.quads_held = impl.sections.quads_held();
+    stats.gpu_bytes = impl.sections.gpu_bytes() + impl.textures.gpu_bytes() + impl.ring.bytes() +
+                      impl.graph.target_bytes() + impl.models.bytes + impl.quad_indices.bytes + impl.noise.bytes() +
+                      impl.picture.bytes();
+    for (const auto& pass : impl.passes)
+        stats.gpu_bytes += pass->gpu_bytes();
+    stats.cpu_bytes = impl.sections.cpu_bytes();
+    stats.passes_ms = impl.graph.times_ms();
+    stats.cull_ms = double(culled - start) * 1e-6;
+    stats.total_ms = double(now_ns() - start) * 1e-6;
+    stats.submit_ms = stats.total_ms - stats.cull_ms;
+    frame.frame = nullptr;
+    return {};
+}
+
+} // namespace vitrail::render
