@@ -50,7 +50,10 @@ void add(bench::Suite& suite, const std::string& tail, u32 parts, const std::str
 
 } // namespace
 
+void register_sight_benches(bench::Suite& suite); // sight_bench.cpp
+
 void register_voxel_benches(bench::Suite& suite) {
+    register_sight_benches(suite);
     add(suite, "", kChunkAll, "a terrain chunk with its light, empty ones included, one core");
     add(suite, ".blocks", kChunkBlocks, "the same, blocks only");
 }

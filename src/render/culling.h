@@ -1,8 +1,9 @@
-// Which sections a view sees: frustum, distance, and the walk through open space (voxel/connectivity.h).
+// Which sections a view sees: frustum, distance, and lines of sight through open faces (voxel/sight.h).
 #pragma once
 
 #include "render/section_store.h"
 #include "scene/frame_view.h"
+#include "voxel/sight.h"
 
 #include <vector>
 
@@ -21,19 +22,26 @@ struct Frustum {
 Frustum make_frustum(const scene::View& view, float aspect);
 bool box_in_frustum(const Frustum& frustum, Vec3 min, Vec3 max); // may say yes for boxes just outside
 
+// Sections with anything to draw.
+struct CullCounts {
+    u32 in_frustum = 0; // and within the distance
+    u32 in_sight = 0;   // of these, where lines of sight lead
+};
+
 class Culler {
 public:
-    // Nearest first. distance in blocks, horizontally.
-    void find_visible(SectionStore& store, const scene::View& view, float aspect, float distance, bool caves,
-                      std::vector<VisibleSection>& out);
+    // Nearest first. distance in blocks, horizontally. caves: leave out what no line of sight reaches.
+    CullCounts find_visible(const SectionStore& store, const scene::View& view, float aspect, float distance,
+                            bool caves, std::vector<VisibleSection>& out);
+    u64 walks() const { return walks_; } // done so far: none where neither the eye nor the sections moved
 
 private:
-    void walk(SectionStore& store, const scene::View& view, i32 radius_chunks);
-    ChunkPos walked_from_;
+    void walk(const SectionStore& store, const scene::View& view, i32 radius_chunks);
+    SightFlood flood_;
+    WorldPos walked_from_{};
     DimensionId walked_in_{};
     i32 walked_radius_ = -1;
-    u64 walked_revision_ = 0, stamp_ = 1;
-    u32 frames_since_ = 0;
+    u64 walked_revision_ = 0, walks_ = 0;
     bool everything_ = true; // the last walk could not tell: draw all
 };
 

@@ -11,8 +11,9 @@ namespace vitrail::render {
 
 struct FrameStats {
     u32 sections = 0;            // held
-    u32 sections_in_frustum = 0; // with anything to draw, of view 0
-    u32 sections_visible = 0;    // drawn: after frustum and all culling
+    // Of all views, with anything to draw: within frustum and distance; of these, where lines of sight lead; of these,
+    // drawn.
+    u32 sections_in_frustum = 0, sections_in_sight = 0, sections_visible = 0;
     u32 draws = 0;                // commands in multi-draws
     u64 quads = 0, triangles = 0; // drawn
     u64 quads_held = 0;

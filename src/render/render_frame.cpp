@@ -52,8 +52,13 @@ TerrainInputs Renderer::Impl::terrain_inputs() const {
 void Renderer::Impl::prepare_view(u32 index, const scene::View& view) {
     ViewDraws& d = frame.views[index];
     const scene::FrameView& of = *frame.frame;
-    cullers[index].find_visible(sections, view, float(of.width) / float(of.height), of.view_distance,
-                                effects.culling.caves && index == 0, d.visible);
+    // Through a portal lines of sight begin at its frame, not at the eye, which may well stand in rock.
+    const Vec4 clip = view.clip_plane;
+    const bool through_portal = clip.x != 0 || clip.y != 0 || clip.z != 0;
+    const CullCounts counts =
+        cullers[index].find_visible(sections, view, float(of.width) / float(of.height), of.view_distance,
+                                    effects.culling.caves && !through_portal, d.visible);
+    stats.sections_in_frustum += counts.in_frustum, stats.sections_in_sight += counts.in_sight;
     // Nearest sections first, as many as the budget allows; the rest keep their old order for a frame.
     u32 sorted = 0;
     for (const VisibleSection& v : d.visible) {
@@ -109,7 +114,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
 
     FrameContext& frame = impl.frame;
     FrameStats& stats = impl.stats;
-    stats.draws = stats.sections_visible = stats.sections_in_frustum = 0;
+    stats.draws = stats.sections_visible = stats.sections_in_frustum = stats.sections_in_sight = 0;
     stats.quads = 0;
     frame.frame = &view;
     frame.effects = &impl.effects;

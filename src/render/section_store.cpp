@@ -28,6 +28,7 @@ Section& SectionStore::obtain(SectionKey key) {
         at->dimension = key.dimension;
         at->index = u32(all_.size());
         all_.push_back(at.get());
+        places_.push_back({key.at, key.dimension, 0});
         ++revision_;
     }
     return *at;
@@ -36,14 +37,16 @@ Section& SectionStore::obtain(SectionKey key) {
 void SectionStore::release_quads(Section& section) {
     if (section.quad_count) ranges_.free(section.first_quad, section.quad_count);
     section.first_quad = section.quad_count = 0;
+    places_[section.index].quad_count = 0;
 }
 
 void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
     VX_ASSERT(mesh.first.back() == mesh.quads.size());
     Section& section = obtain(key);
     release_quads(section);
-    if (section.connections != mesh.connections) ++revision_;
-    section.connections = mesh.connections;
+    const SectionSight sight{mesh.connections, mesh.openings};
+    if (!(section.sight == sight)) ++revision_;
+    section.sight = sight;
     section.first = mesh.first;
     const u32 translucent_first = mesh.first[SectionMesh::group(QuadPass::translucent, 0)];
     section.translucent.assign(mesh.quads.begin() + translucent_first, mesh.quads.end());
@@ -60,6 +63,7 @@ void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
         VX_ASSERT(offset.has_value());
     }
     section.first_quad = *offset, section.quad_count = count;
+    places_[section.index].quad_count = count;
     glNamedBufferSubData(quads_.name(), GLintptr(u64(*offset) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)),
                          mesh.quads.data());
 }
@@ -83,9 +87,9 @@ void SectionStore::remove(SectionKey key) {
     release_quads(section);
     light_.free(section.light_slot);
     tints_.free(section.tint_slot);
-    all_[section.index] = all_.back();
+    all_[section.index] = all_.back(), places_[section.index] = places_.back();
     all_[section.index]->index = section.index;
-    all_.pop_back();
+    all_.pop_back(), places_.pop_back();
     sections_.erase(at);
     ++revision_;
 }
@@ -102,7 +106,7 @@ u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
     if (count < 2) return 0;
     // Doubled coordinates: centers of merged quads lie on half cells.
     const i32 eye[3] = {from[0] * 2 + 1, from[1] * 2 + 1, from[2] * 2 + 1};
-    std::vector<std::pair<u32, u32>> order(count);
+    std::vector<std::tuple<u32, u64, u32>> order(count);
     for (u32 i = 0; i < count; ++i) {
         const Quad q = section.translucent[i];
         i32 c[3] = {i32(q.x()) * 2 + 1, i32(q.y()) * 2 + 1, i32(q.z()) * 2 + 1};
@@ -114,30 +118,31 @@ u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
         u32 distance2 = 0;
         for (int k = 0; k < 3; ++k)
             distance2 += u32((c[k] - eye[k]) * (c[k] - eye[k]));
-        order[i] = {~distance2, i}; // far first; equal ones keep the mesher's order
+        order[i] = {~distance2, q.bits, i}; // far first; equal ones in an order that no earlier eye has a say in
     }
     std::sort(order.begin(), order.end());
-    // Centers tell little of faces that lie one over the other and were merged differently, as water under ice. Parallel
-    // faces have an exact order, that of their planes: they share the places that the centers gave them in that order.
+    // Centers tell little of faces that lie one over the other and were merged differently, as water under ice.
+    // Parallel faces have an exact order, that of their planes: they share the places that the centers gave them in
+    // that order.
     std::vector<u32> places;
     std::vector<std::tuple<i32, u32, u32>> parallel; // plane, place, quad
     for (u32 axis = 0; axis < 3; ++axis) {
         places.clear(), parallel.clear();
         for (u32 place = 0; place < count; ++place) {
-            const Quad q = section.translucent[order[place].second];
+            const Quad q = section.translucent[std::get<2>(order[place])];
             if (q.is_model() || u32(q.face()) >> 1 != axis) continue;
             const u32 cell = axis == 0 ? q.x() : axis == 1 ? q.y() : q.z();
             const i32 plane = i32(cell) * 2 + (u32(q.face()) & 1 ? 2 : 0);
             places.push_back(place);
-            parallel.emplace_back(-std::abs(plane - eye[axis]), place, order[place].second);
+            parallel.emplace_back(-std::abs(plane - eye[axis]), place, std::get<2>(order[place]));
         }
         std::sort(parallel.begin(), parallel.end());
         for (std::size_t i = 0; i < places.size(); ++i)
-            order[places[i]].second = std::get<2>(parallel[i]);
+            std::get<2>(order[places[i]]) = std::get<2>(parallel[i]);
     }
     std::vector<Quad> sorted(count);
     for (u32 i = 0; i < count; ++i)
-        sorted[i] = section.translucent[order[i].second];
+        sorted[i] = section.translucent[std::get<2>(order[i])];
     const u32 at = section.first_quad + section.first[SectionMesh::group(QuadPass::translucent, 0)];
     glNamedBufferSubData(quads_.name(), GLintptr(u64(at) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)),
                          sorted.data());
@@ -150,7 +155,8 @@ u64 SectionStore::gpu_bytes() const {
 }
 
 u64 SectionStore::cpu_bytes() const {
-    u64 sum = all_.size() * (sizeof(Section) + 64) + all_.capacity() * sizeof(Section*);
+    u64 sum = all_.size() * (sizeof(Section) + 64) + all_.capacity() * sizeof(Section*) +
+              places_.capacity() * sizeof(SectionPlace);
     for (const Section* s : all_)
         sum += s->translucent.capacity() * sizeof(Quad);
     return sum;

@@ -28,15 +28,21 @@ struct Section {
     DimensionId dimension{};
     u32 first_quad = 0, quad_count = 0;                // in the quad buffer
     std::array<u32, SectionMesh::kGroups + 1> first{}; // as SectionMesh::first
-    u64 connections = 0;
+    SectionSight sight{0, kWholeFaces};
     u32 light_slot = 0, tint_slot = 0;
     u32 index = 0;                             // in SectionStore::all()
-    u64 reached = 0;                           // stamp of the last walk that found it (culling.h)
     std::vector<Quad> translucent;             // copy for sorting
     std::array<i8, 3> sorted_from{-128, 0, 0}; // the eye's cell when last sorted
     u32 group_size(QuadPass pass) const {
         return first[SectionMesh::group(pass, 0) + SectionMesh::kDirections] - first[SectionMesh::group(pass, 0)];
     }
+};
+
+// What is looked at of every section each frame, kept close together.
+struct SectionPlace {
+    ChunkPos at;
+    DimensionId dimension{};
+    u32 quad_count = 0;
 };
 
 class SectionStore {
@@ -49,7 +55,8 @@ public:
     void clear();
     Section* find(SectionKey key);
     const std::vector<Section*>& all() const { return all_; }
-    u64 revision() const { return revision_; } // grows where culling may change
+    const std::vector<SectionPlace>& places() const { return places_; } // in the order of all()
+    u64 revision() const { return revision_; }                          // grows where culling may change
 
     // Sorts the translucent quads of a section back to front as seen from a cell -1..16 on each axis of it, where it
     // has not been sorted from there; the number of quads moved.
@@ -68,6 +75,7 @@ private:
     void release_quads(Section& section);
     std::unordered_map<SectionKey, std::unique_ptr<Section>, HashSectionKey> sections_;
     std::vector<Section*> all_;
+    std::vector<SectionPlace> places_;
     gfx::Buffer quads_;
     gfx::RangeAllocator ranges_;
     LightAtlas light_;

@@ -3,6 +3,7 @@
 #include "voxel/cell_mask.h"
 
 #include <algorithm>
+#include <bit>
 #include <unordered_map>
 
 namespace vitrail {
@@ -70,13 +71,14 @@ CellMask outer(const CellMask& open) {
     return out;
 }
 
-} // namespace
-
-u64 face_connections(const BlockStorage& blocks, OpaqueStates opaque) {
-    if (blocks.uniform()) return opaque(blocks.get(LocalPos())) ? 0 : kAllConnected;
+CellMask open_cells(const BlockStorage& blocks, OpaqueStates opaque) {
     CellMask open = cells_with_flag(blocks, opaque.flags, opaque.bit);
     for (u64& w : open)
         w = ~w;
+    return open;
+}
+
+u64 connections_of(const CellMask& open) {
     CellMask seeds = outer(open);
     u64 out = 0;
     for (u32 w = 0; w < 64; ++w) {
@@ -91,6 +93,48 @@ u64 face_connections(const BlockStorage& blocks, OpaqueStates opaque) {
         if (out == kAllConnected) break;
     }
     return out;
+}
+
+// Of which rows on the first axis, and which on the second, a slice has open cells.
+FaceOpening opening(u32 first, u32 second) {
+    if (first == 0) return kWholeFace;
+    const auto least = [](u32 bits) { return u32(std::countr_zero(bits)); };
+    const auto most = [](u32 bits) { return u32(std::bit_width(bits)) - 1; };
+    return FaceOpening(least(first) | most(first) << 4 | least(second) << 8 | most(second) << 12);
+}
+
+FaceOpenings openings_of(const CellMask& open) {
+    // Bits of open rows by face: over the axes after the face's, as FaceOpening has them.
+    u32 rows[6][2] = {};
+    const auto note = [](u32(&face)[2], u32 first, u32 second) { face[0] |= first, face[1] |= second; };
+    for (u32 y = 0; y < 16; ++y)
+        for (u32 z = 0; z < 16; ++z) {
+            const u32 row = u32(open[y * 4 + z / 4] >> (z % 4 * 16)) & 0xffff;
+            if (row == 0) continue;
+            if (row & 1) note(rows[0], 1u << y, 1u << z);
+            if (row & 0x8000) note(rows[1], 1u << y, 1u << z);
+            if (y == 0) note(rows[2], 1u << z, row);
+            if (y == 15) note(rows[3], 1u << z, row);
+            if (z == 0) note(rows[4], row, 1u << y);
+            if (z == 15) note(rows[5], row, 1u << y);
+        }
+    FaceOpenings out;
+    for (u32 f = 0; f < 6; ++f)
+        out[f] = opening(rows[f][0], rows[f][1]);
+    return out;
+}
+
+} // namespace
+
+u64 face_connections(const BlockStorage& blocks, OpaqueStates opaque) {
+    if (blocks.uniform()) return opaque(blocks.get(LocalPos())) ? 0 : kAllConnected;
+    return connections_of(open_cells(blocks, opaque));
+}
+
+SectionSight section_sight(const BlockStorage& blocks, OpaqueStates opaque) {
+    if (blocks.uniform()) return {face_connections(blocks, opaque), kWholeFaces};
+    const CellMask open = open_cells(blocks, opaque);
+    return {connections_of(open), openings_of(open)};
 }
 
 namespace {

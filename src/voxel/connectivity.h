@@ -7,6 +7,7 @@
 #include "voxel/coords.h"
 #include "voxel/surface.h"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -20,6 +21,22 @@ constexpr bool connected(u64 connections, Face a, Face b) {
 }
 
 u64 face_connections(const BlockStorage& blocks, OpaqueStates opaque);
+
+// The least square of cells that holds all open ones of a face: its axes are those after the face's, counted round (of
+// an x face y and z, of a y face z and x); least and most of the first in bits 0-3 and 4-7, of the second in 8-11 and
+// 12-15.
+using FaceOpening = u16;
+inline constexpr FaceOpening kWholeFace = 0xf0f0;
+using FaceOpenings = std::array<FaceOpening, 6>; // by Face
+inline constexpr FaceOpenings kWholeFaces{kWholeFace, kWholeFace, kWholeFace, kWholeFace, kWholeFace, kWholeFace};
+
+// What sight needs to know of a section. A face that is closed counts as whole: nothing is joined to it.
+struct SectionSight {
+    u64 connections = kAllConnected;
+    FaceOpenings openings = kWholeFaces;
+    friend bool operator==(const SectionSight&, const SectionSight&) = default;
+};
+SectionSight section_sight(const BlockStorage& blocks, OpaqueStates opaque);
 
 // The connections of a section; kAllConnected where it is absent but may be looked through, 0 where it stops sight.
 using ConnectionsLookup = std::function<u64(ChunkPos)>;

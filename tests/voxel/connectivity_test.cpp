@@ -63,6 +63,31 @@ TEST(Connectivity, SameAsSlowFlood) {
     EXPECT_EQ(face_connections(BlockStorage{StateId(2)}, kOpaque), 0u);
 }
 
+TEST(Connectivity, OpeningsHoldTheOpenCellsOfFaces) {
+    Rng rng(12);
+    for (u32 i = 0; i < 60; ++i) {
+        const BlockStorage b = random_blocks(rng, i % 12 == 0 ? 0 : i % 12);
+        const SectionSight sight = section_sight(b, kOpaque);
+        EXPECT_EQ(sight.connections, face_connections(b, kOpaque));
+        for (u32 f = 0; f < 6; ++f) {
+            const u32 axis = f >> 1, u = (axis + 1) % 3, v = (axis + 2) % 3;
+            u32 least[2] = {15, 15}, most[2] = {0, 0};
+            bool any = false;
+            for (u32 c = 0; c < u32(kChunkVolume); ++c) {
+                const LocalPos p(c);
+                const u32 at[3] = {u32(p.x()), u32(p.y()), u32(p.z())};
+                if (at[axis] != (f & 1 ? 15u : 0u) || kOpaque(b.get(p))) continue;
+                any = true;
+                least[0] = std::min(least[0], at[u]), most[0] = std::max(most[0], at[u]);
+                least[1] = std::min(least[1], at[v]), most[1] = std::max(most[1], at[v]);
+            }
+            const u32 want = any ? least[0] | most[0] << 4 | least[1] << 8 | most[1] << 12 : u32(kWholeFace);
+            ASSERT_EQ(sight.openings[f], want) << "face " << f << " of " << i;
+        }
+    }
+    EXPECT_EQ(section_sight(BlockStorage{}, kOpaque), SectionSight{});
+}
+
 TEST(CellMasks, SameAsCellByCell) {
     Rng rng(4);
     for (const u32 entries : {1u, 2u, 3u, 4u, 9u, 16u, 40u, 256u, 700u}) {

@@ -225,10 +225,10 @@ void mesh_section(const MeshInput& input, SectionMesh& out, MeshScratch& scratch
     MeshScratch::Impl& s = scratch.impl();
     out.quads.clear();
     out.first.fill(0);
-    out.connections = 0;
+    SectionSight sight{0, kWholeFaces};
     if (input.connections)
-        out.connections =
-            face_connections(center.blocks, {reinterpret_cast<const u8*>(models.kinds()), u8(ModelKind::opaque)});
+        sight = section_sight(center.blocks, {reinterpret_cast<const u8*>(models.kinds()), u8(ModelKind::opaque)});
+    out.connections = sight.connections, out.openings = sight.openings;
 
     const Contents has = contents_of(center.blocks.palette(), models);
     if (!has.opaque && !has.grouped && !has.liquid && !has.model) return;

@@ -21,6 +21,7 @@
 #pragma once
 
 #include "base/types.h"
+#include "voxel/connectivity.h"
 #include "voxel/coords.h"
 #include "world/block_def.h"
 #include "world/block_registry.h"
@@ -81,8 +82,9 @@ struct SectionMesh {
     static constexpr u32 group(QuadPass pass, u32 direction) { return u32(pass) * kDirections + direction; }
     std::vector<Quad> quads;
     std::array<u32, kGroups + 1> first{}; // group g is quads[first[g] .. first[g + 1])
-    // For cave culling: bit a * 6 + b is set where an open path inside the section joins face a to face b.
+    // For culling: through which faces, and where in them, sight passes the section (voxel/connectivity.h).
     u64 connections = 0;
+    FaceOpenings openings = kWholeFaces;
     bool empty() const { return quads.empty(); }
 };
 
