@@ -50,7 +50,7 @@ const EffectOption kOptions[] = {
     {"surface.normal_maps", "Relief", "Textures catch the light.", VX_EFFECT(surface.normal_maps), 0, 1, {0, 0, 1, 1, 1}},
     {"surface.sway", "Wind", "Leaves and grass sway.", VX_EFFECT(surface.sway), 0, 1, {0, 0, 1, 1, 1}},
     {"surface.smooth", "Filtered textures", "Far surfaces do not flicker.", VX_EFFECT(surface.smooth), 0, 1, {0, 0, 1, 1, 1}},
-    {"culling.caves", "Cave culling", "Draws only what open space joins to the eye.", VX_EFFECT(culling.caves), 0, 1, {1, 1, 1, 1, 1}},
+    {"culling.caves", "Cave culling", "Draws only where lines of sight lead.", VX_EFFECT(culling.caves), 0, 1, {1, 1, 1, 1, 1}},
     {"culling.occlusion", "Occlusion culling", "Leaves out what lies behind what is drawn.", VX_EFFECT(culling.occlusion), 0, 1, {0, 0, 1, 1, 1}},
     {"antialias", "Antialiasing", "Smooth edges: fxaa cheap, taa best.", VX_EFFECT(antialias), 0, 2, {0, 0, 1, 2, 2}, kAntialias},
     {"dither", "Dithering", "No bands in soft gradients.", VX_EFFECT(dither), 0, 1, {1, 1, 1, 1, 1}},
