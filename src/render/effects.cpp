@@ -173,8 +173,4 @@ Effects sane(Effects effects) {
     return effects;
 }
 
-bool needs_gbuffer(const Effects& effects) {
-    return effects.ssao.on || effects.reflections.on;
-}
-
 } // namespace vitrail::render

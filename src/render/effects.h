@@ -18,7 +18,7 @@
 
 namespace vitrail::render {
 
-// off: light levels alone. low: for software OpenGL, shading fused into the terrain shaders. ultra: for large GPUs.
+// off: light levels alone. low: for software OpenGL. ultra: for large GPUs.
 enum class Preset : u8 { off, low, medium, high, ultra, count };
 
 enum class Clouds : i32 { off, flat, lit };
@@ -114,8 +114,5 @@ Result<> set_effect(Effects& effects, std::string_view key, std::string_view val
 std::string effect_text(const Effects& effects, const EffectOption& option); // as set_effect reads it
 // Every value held inside its range; what needs something that is off goes off with it.
 Effects sane(Effects effects);
-
-// Whether surfaces go through a G-buffer (SSAO, reflections) or are lit where they are drawn.
-bool needs_gbuffer(const Effects& effects);
 
 } // namespace vitrail::render

@@ -17,7 +17,7 @@ Result<> Renderer::Impl::declare(bool stencil) {
     const bool timing = !graph.times_ms().empty();
     graph.clear();
     graph.add_external("screen");
-    DeclareContext declaring{graph, effects, needs_gbuffer(effects), stencil};
+    DeclareContext declaring{graph, effects, stencil};
     for (const auto& pass : passes)
         pass->declare(declaring);
     VX_TRY(graph.compile());

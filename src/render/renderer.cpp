@@ -19,7 +19,7 @@ static gfx::Buffer make_quad_indices() {
 }
 
 Result<> Renderer::Impl::build(const Effects& wanted) {
-    const BuildContext build{shaders, wanted, context, needs_gbuffer(wanted)};
+    const BuildContext build{shaders, wanted, context};
     for (const auto& pass : passes)
         VX_TRY(pass->build(build));
     VX_TRY_ASSIGN(icon, shaders.program("icon/icon.vert.glsl", "icon/icon.frag.glsl"));

@@ -81,8 +81,7 @@ public:
     Result<Image> read_pixels();
     // A target of the frame graph after the last frame: "depth", "color", "albedo", ... Errors: not_found.
     Result<TargetPixels> read_target(const std::string& name);
-    // The number of the view that each pixel of the last frame belongs to, rows from the top. Errors: not_found, also
-    // where the effects need no G-buffer.
+    // The number of the view that each pixel of the last frame belongs to, rows from the top (tests, picking).
     Result<std::vector<u8>> read_view_numbers();
 
     // A state's picture for the hotbar, RGBA with premultiplied alpha, size x size, seen from above at a corner.

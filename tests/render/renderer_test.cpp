@@ -146,7 +146,7 @@ TEST_F(RendererTest, TranslucentQuadsAreSorted) {
 TEST_F(RendererTest, ResizesAtAnyTime) {
     bench::SampleScene scene(1);
     scene.registry.content_roots = {test_content()};
-    auto renderer = make_renderer(Preset::high);
+    auto renderer = make_renderer();
     ASSERT_TRUE(renderer);
     scene.give(*renderer);
     ASSERT_TRUE(renderer->load_textures(scene.registry));
@@ -231,7 +231,7 @@ TEST_F(RendererTest, RemovedSectionsAreGone) {
 }
 
 TEST_F(RendererTest, ClipPlanesCutAndViewsAreNumbered) {
-    auto renderer = make_renderer(Preset::high);
+    auto renderer = make_renderer();
     BlockRegistry registry;
     registry.content_roots = {test_content()};
     const TextureId white = registry.texture_id("white");

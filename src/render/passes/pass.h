@@ -20,13 +20,11 @@ struct BuildContext {
     ShaderLibrary& shaders;
     const Effects& effects;
     const gfx::ContextInfo& context;
-    bool gbuffer = false; // surfaces go through a G-buffer; else they are lit where they are drawn
 };
 
 struct DeclareContext {
     gfx::FrameGraph& graph;
     const Effects& effects;
-    bool gbuffer = false;
     bool stencil = false; // several views: depth carries the view's number as stencil
     // The target that holds the picture in linear HDR after the passes declared so far; a pass that makes a new one
     // (antialiasing in time) names it here.

@@ -7,14 +7,13 @@
 namespace vitrail::render {
 
 Result<> LightingPass::build(const BuildContext& context) {
-    if (!context.gbuffer) return {};
     VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "lighting/lighting.frag.glsl"));
     return {};
 }
 
 void LightingPass::declare(DeclareContext& c) {
-    if (!c.gbuffer) return;
     std::vector<std::string> reads{"albedo", "light", "surface"};
+    c.graph.add_target({.name = "color", .format = GL_RGBA16F, .linear = true});
     c.graph.add_pass({"lighting",
                       reads,
                       {"color"},

@@ -1,4 +1,4 @@
-// Light on a surface, shared by the lighting pass, terrain that is lit at once, and translucent surfaces.
+// Light on a surface, shared by the lighting pass and translucent surfaces.
 // Needs frame.glsl, common/surface.glsl, common/ambient.glsl, shadow/shadow.glsl.
 // place: camera-relative; towards: unit direction from the eye.
 vec3 shade(Surface s, vec3 place, vec3 towards, uint view) {

@@ -1,36 +1,23 @@
-// Opaque and cutout terrain. Fills the G-buffer, or with LIT shades at once. Colors stay sRGB-encoded in the G-buffer:
+// Opaque and cutout terrain into the G-buffer. Colors stay sRGB-encoded in the G-buffer:
 // textures, tints and their product are what artists see; lighting decodes them once a pixel.
-// CUTOUT: holes. NORMAL_MAPS: relief. LIT: no G-buffer.
+// CUTOUT: holes. NORMAL_MAPS: relief.
 #include "common/frame.glsl"
 #include "common/normal.glsl"
-#include "common/surface.glsl"
-#ifdef LIT
-#include "common/sky.glsl"
-#include "common/color.glsl"
-#include "common/ambient.glsl"
-#include "common/fog.glsl"
-#include "shadow/shadow.glsl"
-#include "lighting/shade.glsl"
-#endif
 
 layout(location = 0) in vec3 v_uv_ao;
 layout(location = 1) in vec3 v_light_at;
 layout(location = 2) in vec3 v_tint;
 layout(location = 3) flat in uvec2 v_surface;
-#if defined(NORMAL_MAPS) || defined(LIT)
+#ifdef NORMAL_MAPS
 layout(location = 4) in vec3 v_position;
 #endif
 layout(binding = 0) uniform sampler2DArray t_albedo;
 layout(binding = 1) uniform sampler3D t_light;
 layout(binding = 2) uniform sampler2DArray t_material; // normal x, normal y, roughness, emission
 
-#ifdef LIT
-layout(location = 0) out vec4 o_color;
-#else
 layout(location = 0) out vec4 o_albedo;   // sRGB-encoded albedo, ambient occlusion
 layout(location = 1) out vec4 o_light;    // block light r g b, sky light, each level / 15
 layout(location = 2) out uvec4 o_surface; // normal (octahedral), view number | face << 3, roughness << 4 | emission
-#endif
 
 #ifdef NORMAL_MAPS
 vec3 relief(vec3 n, vec2 slope) {
@@ -49,10 +36,8 @@ void main() {
     vec4 albedo = texture(t_albedo, at);
     // Before the holes: derivatives end where a neighbor is discarded.
     vec4 material = texture(t_material, at);
-#if defined(NORMAL_MAPS) || defined(LIT)
-    vec3 n = normal_from_bytes(uvec2(v_surface.y & 255u, v_surface.y >> 8 & 255u));
-#endif
 #ifdef NORMAL_MAPS
+    vec3 n = normal_from_bytes(uvec2(v_surface.y & 255u, v_surface.y >> 8 & 255u));
     n = relief(n, material.rg * 2.0 - 1.00392157);
 #endif
 #ifdef CUTOUT
@@ -60,22 +45,6 @@ void main() {
 #endif
     vec4 light = texture(t_light, v_light_at).bgra;
     vec3 color = albedo.rgb * v_tint;
-#ifdef LIT
-    uint face = v_surface.y >> 19 & 7u, number = v_surface.y >> 16 & 7u;
-    Surface s;
-    s.albedo = linear_from_srgb(color);
-    s.normal = n;
-    s.face = face < 6u ? axis_of_face(face) : n;
-    s.plant = face == kFacePlant;
-    s.light = light;
-    s.ao = v_uv_ao.z;
-    s.roughness = material.b;
-    s.emission = material.a;
-    float per_length = inversesqrt(dot(v_position, v_position));
-    float away = dot(v_position, v_position) * per_length;
-    vec3 towards = v_position * per_length;
-    o_color = vec4(apply_fog(shade(s, v_position, towards, number), away, towards, views[number].ray_up.w, light.a), 1.0);
-#else
     o_albedo = vec4(color, v_uv_ao.z);
     o_light = light;
     uvec4 surface = uvec4(v_surface.y & 255u, v_surface.y >> 8 & 255u, v_surface.y >> 16 & 255u, 0u);
@@ -84,5 +53,4 @@ void main() {
 #endif
     surface.w = uint(material.b * 15.0 + 0.5) << 4 | uint(material.a * 15.0 + 0.5);
     o_surface = surface;
-#endif
 }

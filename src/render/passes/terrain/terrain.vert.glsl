@@ -1,5 +1,5 @@
 // Pulls 8-byte quads (render/meshing/quad.h) by gl_VertexID. MODEL: 0 cube quads, 1 model quads, 2 either.
-// SMOOTH: blended tints. SWAY: wind. NORMAL_MAPS, LIT, LIQUID: the fragment needs the place.
+// SMOOTH: blended tints. SWAY: wind. NORMAL_MAPS, LIQUID: the fragment needs the place.
 #include "common/frame.glsl"
 #include "common/normal.glsl"
 
@@ -15,7 +15,7 @@ layout(location = 0) out vec3 v_uv_ao;
 layout(location = 1) out vec3 v_light_at;
 layout(location = 2) out vec3 v_tint;
 layout(location = 3) flat out uvec2 v_surface; // layer; normal bytes, view << 16, face << 19, liquid << 24
-#if defined(NORMAL_MAPS) || defined(LIT) || defined(LIQUID)
+#if defined(NORMAL_MAPS) || defined(LIQUID)
 layout(location = 4) out vec3 v_position;
 #endif
 #ifdef LIQUID
@@ -143,7 +143,7 @@ void main() {
     v_tint = tint_of(q.y >> 16 & 7u, q.y >> 19 & 255u, uint(in_section.w) >> 16, local.xz);
     uvec2 n = normal_bytes(normal);
     v_surface = uvec2(q.y & 0xffffu, n.x | n.y << 8 | u_view << 16 | what << 19 | ((q.y >> 28 & 1u) != 0u ? kFlagLiquid << 24 : 0u));
-#if defined(NORMAL_MAPS) || defined(LIT) || defined(LIQUID)
+#if defined(NORMAL_MAPS) || defined(LIQUID)
     v_position = position;
 #endif
 #ifdef LIQUID

@@ -26,7 +26,6 @@ Result<> TerrainPass::build(const BuildContext& context) {
     for (const Kind& kind : kinds) {
         std::vector<std::string> defines = terrain_defines(context.effects);
         defines.insert(defines.end(), kind.defines.begin(), kind.defines.end());
-        if (!context.gbuffer) defines.push_back("LIT");
         VX_TRY_ASSIGN(programs_[u32(kind.kind)],
                       context.shaders.program("terrain/terrain.vert.glsl", "terrain/terrain.frag.glsl", defines));
     }
@@ -36,15 +35,14 @@ Result<> TerrainPass::build(const BuildContext& context) {
 void TerrainPass::declare(DeclareContext& c) {
     // Stencil masks the views of portals; without any, 4 bytes a pixel are saved.
     c.graph.add_target({.name = "depth", .format = u32(c.stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F)});
-    c.graph.add_target({.name = "color", .format = GL_RGBA16F, .linear = true});
-    std::vector<std::string> writes{"color", "depth"};
-    if (c.gbuffer) {
-        c.graph.add_target({.name = "albedo", .format = GL_RGBA8});
-        c.graph.add_target({.name = "light", .format = GL_RGBA8});
-        c.graph.add_target({.name = "surface", .format = GL_RGBA8UI});
-        writes = {"albedo", "light", "surface", "depth"};
-    }
-    c.graph.add_pass({"terrain", {}, writes, [this](const gfx::PassContext& p) { draw(p.graph); }, ""});
+    c.graph.add_target({.name = "albedo", .format = GL_RGBA8});
+    c.graph.add_target({.name = "light", .format = GL_RGBA8});
+    c.graph.add_target({.name = "surface", .format = GL_RGBA8UI});
+    c.graph.add_pass({"terrain",
+                      {},
+                      {"albedo", "light", "surface", "depth"},
+                      [this](const gfx::PassContext& p) { draw(p.graph); },
+                      ""});
 }
 
 void for_each_view(const FrameContext& frame, const std::function<void(u32, const ViewDraws&)>& body) {

@@ -1,5 +1,5 @@
-// Opaque and cutout terrain: into the G-buffer ("albedo", "light", "surface", "depth"), or lit at once into "color" where
-// no effect needs the G-buffer. Cracks at T-junctions: a cube quad grows outwards in its plane by kSeal
+// Opaque and cutout terrain into the G-buffer: "albedo", "light", "surface", "depth". (Lighting surfaces where they are drawn
+// was slower on software OpenGL too: what is overdrawn was lit in vain.) Cracks at T-junctions: a cube quad grows outwards in its plane by kSeal
 // (terrain.vert.glsl) of a pixel.
 #pragma once
 
