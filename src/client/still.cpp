@@ -95,6 +95,13 @@ Result<> Still::draw_only(const CameraPose& pose, u32 width, u32 height, float t
     return {};
 }
 
+Result<render::Image> Still::draw_settled(const CameraPose& pose, u32 width, u32 height, float time, u32 frames) {
+    renderer_->forget_frames();
+    for (u32 i = 0; i < frames; ++i)
+        VX_TRY(draw_only(pose, width, height, time));
+    return renderer_->read_pixels();
+}
+
 Result<render::Image> Still::draw(const CameraPose& pose, u32 width, u32 height, float time) {
     VX_TRY(draw_only(pose, width, height, time));
     return renderer_->read_pixels();

@@ -36,6 +36,9 @@ public:
     ~Still();
     // time: 0..24000. The pose may turn and move within the view distance.
     Result<render::Image> draw(const CameraPose& pose, u32 width, u32 height, float time);
+    // As if the eye had been there for a while: earlier frames are forgotten, and what builds up over frames (exposure,
+    // antialiasing, answers to occlusion queries) has `frames` of them at one moment of animation.
+    Result<render::Image> draw_settled(const CameraPose& pose, u32 width, u32 height, float time, u32 frames = 8);
     // Without reading pixels back; finishes drawing. For timing.
     Result<> draw_only(const CameraPose& pose, u32 width, u32 height, float time);
 

@@ -53,11 +53,11 @@ tv::Read numbers(std::array<double, N>& out, const char* what, double most) {
     };
 }
 
-// "effect.key=value", the words as settings have them.
+// "effect.key=value" or "key=value", the words as settings have them.
 bool is_setting(const std::string& text) {
-    const std::size_t dot = text.find('.'), equals = text.find('=');
-    return is_plain(text, 80) && dot != 0 && dot < equals && equals != std::string::npos && equals > dot + 1 &&
-           equals + 1 < text.size() && std::all_of(text.begin(), text.end(), [](char c) {
+    const std::size_t equals = text.find('=');
+    return is_plain(text, 80) && equals != std::string::npos && equals > 0 && equals + 1 < text.size() &&
+           text.find('=', equals + 1) == std::string::npos && std::all_of(text.begin(), text.end(), [](char c) {
                return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '=' || c == '-';
            });
 }
@@ -111,7 +111,12 @@ public:
             if (!(r >= 0 && r <= kFarMost)) return wrong("radius");
         return out;
     }
-    Result<> end() const { return next_ >= values_.size() ? Result<>{} : Result<>(wrong("too much")); }
+    // A nil at the end is as good as nothing there.
+    Result<> end() const {
+        for (std::size_t i = next_; i < values_.size(); ++i)
+            if (!values_[i].is_nil()) return wrong("too much");
+        return {};
+    }
 
 private:
     std::span<const Value> values_;
@@ -358,7 +363,7 @@ public:
         const auto without = [&](const Value& value) -> Result<> {
             const auto one = [&](const Value& v) -> Result<> {
                 if (!v.string() || !is_setting(*v.string()))
-                    return bad("expected a setting such as \"shadows.enabled=false\"");
+                    return bad("expected a setting such as \"shadows.on=false\"");
                 s.without.push_back(*v.string());
                 return {};
             };

@@ -23,7 +23,7 @@ struct Station {
     float yaw = 0, pitch = 0;         // degrees, as everywhere
     float fov = 70;                   // vertical, degrees
     float time = 6000;                // of the day, 0 to 24000
-    std::vector<std::string> without; // settings "effect.key=value" that switch the effect off
+    std::vector<std::string> without; // settings as "shadows.on=false" that switch the effect off
 };
 
 struct ScriptedWorld {
