@@ -3,6 +3,7 @@
 #include "base/assert.h"
 
 #include <algorithm>
+#include <bit>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <set>
@@ -21,8 +22,10 @@ bool is_depth(u32 format) {
 Texture make_target(const TargetDesc& d, u32 width, u32 height) {
     const u32 w = d.width ? d.width : std::max((width + d.divisor - 1) / d.divisor, 1u);
     const u32 h = d.width ? d.height : std::max((height + d.divisor - 1) / d.divisor, 1u);
-    Texture made = d.layers ? make_texture_2d_array(d.format, w, h, d.layers) : make_texture_2d(d.format, w, h);
-    if (d.linear) set_filter(made, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    const u32 levels = d.mips ? u32(std::bit_width(std::max(w, h))) : 1;
+    Texture made =
+        d.layers ? make_texture_2d_array(d.format, w, h, d.layers, levels) : make_texture_2d(d.format, w, h, levels);
+    if (d.linear) set_filter(made, d.mips ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
     return made;
 }
 
@@ -73,8 +76,7 @@ Result<> FrameGraph::compile() const {
         for (const std::string& name : pass.writes) {
             const Target* target = find(name);
             if (!target) return wrong(pass, "writes unknown target " + name);
-            if (target->external && pass.writes.size() > 1)
-                return wrong(pass, "writes an external target and others");
+            if (target->external && pass.writes.size() > 1) return wrong(pass, "writes an external target and others");
             if (std::count(pass.writes.begin(), pass.writes.end(), name) > 1)
                 return wrong(pass, "writes " + name + " twice");
             if (std::find(pass.reads.begin(), pass.reads.end(), name) != pass.reads.end())

@@ -35,6 +35,7 @@ struct TargetDesc {
     u32 layers = 0;            // above 0: a 2-D array; its passes attach layers themselves (no framebuffer is made)
     bool history = false;
     bool linear = false; // filtered when sampled; always clamped to the edge
+    bool mips = false;   // has all smaller levels too; passes draw into the largest and fill the others
 };
 
 class FrameGraph;

@@ -2,7 +2,9 @@
 
 #include "render/passes/lighting/lighting_pass.h"
 #include "render/passes/outline/outline_pass.h"
+#include "render/passes/scene_copy/scene_copy_pass.h"
 #include "render/passes/sky/sky_pass.h"
+#include "render/passes/ssr/reflections_pass.h"
 #include "render/passes/terrain/terrain_pass.h"
 #include "render/passes/tonemap/tonemap_pass.h"
 #include "render/passes/water/water_pass.h"
@@ -15,6 +17,8 @@ std::vector<std::unique_ptr<RenderPass>> make_passes() {
     passes.push_back(std::make_unique<TerrainPass>());
     passes.push_back(std::make_unique<LightingPass>());
     passes.push_back(std::make_unique<SkyPass>());
+    passes.push_back(std::make_unique<SceneCopyPass>());
+    passes.push_back(std::make_unique<ReflectionsPass>());
     // What lets light through, and the air.
     passes.push_back(std::make_unique<WaterPass>());
     passes.push_back(std::make_unique<OutlinePass>());

@@ -4,8 +4,14 @@
 
 namespace vitrail::render {
 
-void draw_screen(const gfx::Program& program, u32 vertex_array, ScreenArea area, std::initializer_list<u32> textures) {
-    glDisable(GL_BLEND);
+void draw_screen(const gfx::Program& program, u32 vertex_array, ScreenArea area, std::initializer_list<u32> textures,
+                 ScreenBlend blend) {
+    if (blend == ScreenBlend::none) {
+        glDisable(GL_BLEND);
+    } else {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    }
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
     // The triangle lies infinitely far (depth 0): nearer surfaces are "greater", empty pixels equal.
@@ -18,6 +24,7 @@ void draw_screen(const gfx::Program& program, u32 vertex_array, ScreenArea area,
     glBindVertexArray(vertex_array);
     glBindTextures(0, GLsizei(textures.size()), textures.begin());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
 }
 
 } // namespace vitrail::render
