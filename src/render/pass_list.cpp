@@ -1,5 +1,7 @@
 #include "render/pass_list.h"
 
+#include "render/passes/bloom/bloom_pass.h"
+#include "render/passes/exposure/exposure_pass.h"
 #include "render/passes/lighting/lighting_pass.h"
 #include "render/passes/outline/outline_pass.h"
 #include "render/passes/scene_copy/scene_copy_pass.h"
@@ -23,6 +25,8 @@ std::vector<std::unique_ptr<RenderPass>> make_passes() {
     passes.push_back(std::make_unique<WaterPass>());
     passes.push_back(std::make_unique<OutlinePass>());
     // The eye.
+    passes.push_back(std::make_unique<ExposurePass>());
+    passes.push_back(std::make_unique<BloomPass>());
     passes.push_back(std::make_unique<TonemapPass>());
     return passes;
 }

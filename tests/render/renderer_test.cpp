@@ -178,6 +178,9 @@ TEST_F(RendererTest, CountsMissingTextures) {
 
 TEST_F(RendererTest, LightChangesWithoutAMesh) {
     auto renderer = make_renderer();
+    Effects effects = renderer->effects();
+    effects.exposure.automatic = false; // which would make up for the dark
+    ASSERT_TRUE(renderer->set_effects(effects));
     BlockRegistry registry;
     registry.content_roots = {test_content()};
     const TextureId white = registry.texture_id("white");
@@ -277,17 +280,14 @@ TEST_F(RendererTest, SkyIsTheSameInBothLanguages) {
         auto frame = bench::SampleScene::frame(17, 17, eye_at(0, 0, 0), 90, 25, 8);
         frame.sky = scene::sky_at(time);
         frame.views[0].fov_y = 0.02f;
-        const Image image = draw(*renderer, frame);
+        (void)draw(*renderer, frame);
+        const auto color = renderer->read_target("color");
+        ASSERT_TRUE(color);
         const Vec3 c = scene::sky_color(frame.sky, look_direction(1.5707963f, 0.4363323f));
         const float in[3] = {c.x, c.y, c.z};
-        for (u32 k = 0; k < 3; ++k) {
-            const float x = in[k],
-                        mapped = clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
-            const float encoded = mapped <= 0.0031308f ? mapped * 12.92f : 1.055f * std::pow(mapped, 1 / 2.4f) - 0.055f;
-            const float moon_halo =
-                time > 12000 ? 12 : 5; // the sun's and moon's halos reach a little below the horizon
-            EXPECT_NEAR(image.at(8, 8)[k], encoded * 255, moon_halo) << "time " << time << " channel " << k;
-        }
+        const float halo = time > 11000 ? 0.03f : 0.006f; // the sun's and moon's reach a little below the horizon
+        for (u32 k = 0; k < 3; ++k)
+            EXPECT_NEAR(color->at(8, 8)[k], in[k], halo) << "time " << time << " channel " << k;
     }
 }
 

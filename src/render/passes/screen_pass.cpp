@@ -5,12 +5,16 @@
 namespace vitrail::render {
 
 void draw_screen(const gfx::Program& program, u32 vertex_array, ScreenArea area, std::initializer_list<u32> textures,
-                 ScreenBlend blend) {
-    if (blend == ScreenBlend::none) {
+                 ScreenBlend blend, float share) {
+    if (blend == ScreenBlend::none)
         glDisable(GL_BLEND);
-    } else {
+    else
         glEnable(GL_BLEND);
-        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (blend == ScreenBlend::over) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (blend == ScreenBlend::add) glBlendFunc(GL_ONE, GL_ONE);
+    if (blend == ScreenBlend::by_share) {
+        glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+        glBlendColor(0, 0, 0, share);
     }
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);

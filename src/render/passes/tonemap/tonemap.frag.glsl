@@ -1,19 +1,41 @@
-// Linear light to what a screen shows: ACES fit (Narkowicz 2015), sRGB curve, dithering against bands.
+// The picture in linear light as the eye and the screen have it: bloom, exposure, filmic curve, sRGB, dithering.
+// AUTO: "exposure" counts. BLOOM, DITHER.
 #include "common/frame.glsl"
+#include "common/tone.glsl"
 layout(binding = 0) uniform sampler2D t_color;
+layout(binding = 1) uniform sampler2D t_bloom;
+layout(binding = 13) uniform sampler2D t_exposure;
+layout(location = 0) uniform vec2 u_exposure_bloom; // factor, share that spreads
 layout(location = 0) out vec4 o_color;
 
+// Interleaved gradient noise (Jimenez 2014): neighbors differ much, so that the eye averages them.
+vec3 noise(vec2 pixel) {
+    vec3 base = vec3(0.0, 5.588238, 11.176476) * 0.6180339887;
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)) + base));
+}
+// Even 0..1 to a triangle -1..1: with it neither mean nor variance of the rounded value depends on the value
+// (Lipshitz, Wannamaker and Vanderkooy 1992).
+vec3 triangular(vec3 n) {
+    n = n * 2.0 - 1.0;
+    return sign(n) * (1.0 - sqrt(1.0 - abs(n)));
+}
+
 void main() {
-    vec3 x = texelFetch(t_color, ivec2(gl_FragCoord.xy), 0).rgb * misc.z;
-    vec3 mapped = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-    mapped = mix(mapped, x, background.w); // tests read the color they asked for
-    // sRGB's curve without a power function: within 0.003 of it.
-    vec3 r = sqrt(mapped), rr = sqrt(r);
-    vec3 encoded = max(0.662002687 * r + 0.684122060 * rr - 0.323583601 * sqrt(rr) - 0.0225411470 * mapped, 0.0);
+    vec3 color = texelFetch(t_color, ivec2(gl_FragCoord.xy), 0).rgb;
+    vec3 x = color;
+#ifdef BLOOM
+    vec2 half_size = vec2(textureSize(t_bloom, 0));
+    x = mix(x, textureLod(t_bloom, gl_FragCoord.xy * 0.5 / half_size, 0.0).rgb, u_exposure_bloom.y);
+#endif
+    float exposure = u_exposure_bloom.x;
+#ifdef AUTO
+    exposure *= texelFetch(t_exposure, ivec2(0), 0).r;
+#endif
+    // Tests read the color they asked for.
+    vec3 mapped = background.w > 0.5 ? clamp(color, 0.0, 1.0) : filmic(max(x * exposure, vec3(0.0)));
+    vec3 encoded = srgb_from_linear(mapped);
 #ifdef DITHER
-    // Interleaved gradient noise (Jimenez 2014), one step of 8 bits.
-    float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
-    encoded += (noise - 0.5) * (1.0 / 255.0) * (1.0 - background.w);
+    encoded += triangular(noise(floor(gl_FragCoord.xy))) * ((1.0 - background.w) / 255.0);
 #endif
     o_color = vec4(encoded, 1.0);
 }

@@ -1,4 +1,5 @@
-// Linear light to what a screen shows.
+// Linear light to what a screen shows: bloom mixed in, exposure, filmic curve (common/tone.glsl), dithering. Into
+// DeclareContext::display.
 #pragma once
 
 #include "render/passes/pass.h"
@@ -11,6 +12,7 @@ public:
     void declare(DeclareContext& context) override;
 
 private:
+    void draw(const gfx::PassContext& context, const std::string& color);
     ProgramRef program_;
 };
 
