@@ -26,9 +26,7 @@ bool box_in_frustum(const Frustum& frustum, Vec3 min, Vec3 max) {
     return true;
 }
 
-// An eye that moves by less than kStill keeps its walk; blocks reach out of their section by up to kReach: what sways,
-// hangs over, or grows by a hair against cracks.
-static constexpr float kStill = 1.0f / 16, kReach = 3.0f / 16;
+static constexpr float kStill = 1.0f / 16; // an eye that moves by less keeps its walk
 static constexpr i32 kLayersMost = 256;
 
 void Culler::walk(const SectionStore& store, const scene::View& view, i32 radius) {
@@ -59,7 +57,7 @@ void Culler::walk(const SectionStore& store, const scene::View& view, i32 radius
         for (const Section* s : store.all())
             if (s->dimension == view.eye.dimension) flood_.set(s->at, s->sight);
     }
-    if (!everything_) flood_.run(view.eye.at, kStill + kReach);
+    if (!everything_) flood_.run(view.eye.at, kStill + kSectionReach);
 }
 
 CullCounts Culler::find_visible(const SectionStore& store, const scene::View& view, float aspect, float distance,

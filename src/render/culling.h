@@ -22,6 +22,9 @@ struct Frustum {
 Frustum make_frustum(const scene::View& view, float aspect);
 bool box_in_frustum(const Frustum& frustum, Vec3 min, Vec3 max); // may say yes for boxes just outside
 
+// Blocks reach out of their section by up to this: what sways, hangs over, or grows by a hair against cracks.
+inline constexpr float kSectionReach = 3.0f / 16;
+
 // Sections with anything to draw.
 struct CullCounts {
     u32 in_frustum = 0; // and within the distance

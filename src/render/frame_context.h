@@ -43,6 +43,10 @@ struct ViewDraws {
     std::vector<VisibleSection> visible; // nearest first
     DrawList list;
     TerrainInputs inputs;
+    // Where occlusion culling splits the list (passes/occlusion/): solid surfaces draw these two; `inputs` holds what they
+    // drew, once they have.
+    bool occlusion = false;
+    TerrainInputs first, late;
 };
 
 struct FrameContext {

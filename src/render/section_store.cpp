@@ -27,6 +27,12 @@ Section& SectionStore::obtain(SectionKey key) {
         at->at = key.at;
         at->dimension = key.dimension;
         at->index = u32(all_.size());
+        if (free_slots_.empty()) {
+            at->slot = slot_count_++;
+        } else {
+            at->slot = free_slots_.back();
+            free_slots_.pop_back();
+        }
         all_.push_back(at.get());
         places_.push_back({key.at, key.dimension, 0});
         ++revision_;
@@ -87,6 +93,7 @@ void SectionStore::remove(SectionKey key) {
     release_quads(section);
     light_.free(section.light_slot);
     tints_.free(section.tint_slot);
+    free_slots_.push_back(section.slot);
     all_[section.index] = all_.back(), places_[section.index] = places_.back();
     all_[section.index]->index = section.index;
     all_.pop_back(), places_.pop_back();

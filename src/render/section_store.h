@@ -31,6 +31,7 @@ struct Section {
     SectionSight sight{0, kWholeFaces};
     u32 light_slot = 0, tint_slot = 0;
     u32 index = 0;                             // in SectionStore::all()
+    u32 slot = 0;                              // its own while it is held: what the GPU remembers of it
     std::vector<Quad> translucent;             // copy for sorting
     std::array<i8, 3> sorted_from{-128, 0, 0}; // the eye's cell when last sorted
     u32 group_size(QuadPass pass) const {
@@ -58,6 +59,8 @@ public:
     const std::vector<SectionPlace>& places() const { return places_; } // in the order of all()
     u64 revision() const { return revision_; }                          // grows where culling may change
 
+    u32 slot_count() const { return slot_count_; } // slots lie below it
+
     // Sorts the translucent quads of a section back to front as seen from a cell -1..16 on each axis of it, where it
     // has not been sorted from there; the number of quads moved.
     u32 sort_translucent(Section& section, std::array<i8, 3> from);
@@ -76,6 +79,8 @@ private:
     std::unordered_map<SectionKey, std::unique_ptr<Section>, HashSectionKey> sections_;
     std::vector<Section*> all_;
     std::vector<SectionPlace> places_;
+    std::vector<u32> free_slots_;
+    u32 slot_count_ = 0;
     gfx::Buffer quads_;
     gfx::RangeAllocator ranges_;
     LightAtlas light_;

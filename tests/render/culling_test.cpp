@@ -70,52 +70,89 @@ public:
 
 using CullingTest = RenderTest;
 
-void turn_and_compare(Preset preset, Image (*draw)(Renderer&, const scene::FrameView&)) {
-    MazeScene scene(7, {9, 4, 9});
-    Effects effects = preset_effects(preset);
-    auto made = Renderer::create({.effects = effects});
-    effects.culling = {.caves = false, .occlusion = false};
-    auto plain = Renderer::create({.effects = effects});
-    ASSERT_TRUE(made && plain);
-    Renderer &culled = **made, &whole = **plain;
-    scene.give(culled), scene.give(whole);
+using Draw = Image (*)(Renderer&, const scene::FrameView&);
+
+// Eyes that turn faster than anybody and step about, each frame drawn by a renderer that culls and by one that does
+// not.
+struct Turning {
     u64 in_frustum = 0, in_sight = 0, drawn = 0;
-    Rng rng(3);
-    for (const ChunkPos room : {ChunkPos{4, 1, 4}, ChunkPos{0, 0, 0}, ChunkPos{8, 3, 2}, ChunkPos{2, 2, 7}}) {
-        WorldPos eye = scene.eye(room);
-        float yaw = 10;
-        for (u32 frame = 0; frame < 10; ++frame) {
-            auto view = bench::SampleScene::frame(160, 90, eye, yaw, 40 * std::sin(float(frame)), 9);
-            const Image with = draw(culled, view), without = draw(whole, view);
-            if (with.pixels != without.pixels) {
-                u64 differ = 0;
-                for (std::size_t i = 0; i < with.pixels.size(); i += 3)
-                    differ += !std::equal(&with.pixels[i], &with.pixels[i] + 3, &without.pixels[i]);
-                if (std::getenv("VITRAIL_TEST_KEEP")) {
-                    (void)write_png("/tmp/culling_with.png", with);
-                    (void)write_png("/tmp/culling_without.png", without);
+    u32 frames = 0;
+
+    template <class Scene>
+    void run(Preset preset, Effects::Culling culling, Scene& scene, const std::vector<WorldPos>& eyes, Draw draw) {
+        Effects effects = preset_effects(preset);
+        effects.culling = culling;
+        auto made = Renderer::create({.effects = effects});
+        effects.culling = {.caves = false, .occlusion = false};
+        auto plain = Renderer::create({.effects = effects});
+        ASSERT_TRUE(made && plain);
+        Renderer &culled = **made, &whole = **plain;
+        scene.give(culled), scene.give(whole);
+        Rng rng(3);
+        for (WorldPos eye : eyes) {
+            float yaw = 10;
+            for (u32 frame = 0; frame < 9; ++frame) {
+                auto view = bench::SampleScene::frame(160, 90, eye, yaw, 40 * std::sin(float(frame)), 9);
+                const Image with = draw(culled, view), without = draw(whole, view);
+                if (with.pixels != without.pixels) {
+                    u64 differ = 0;
+                    for (std::size_t i = 0; i < with.pixels.size(); i += 3)
+                        differ += !std::equal(&with.pixels[i], &with.pixels[i] + 3, &without.pixels[i]);
+                    FAIL() << differ << " pixels differ in frame " << frames;
                 }
-                FAIL() << differ << " pixels differ, room " << room.x << " frame " << frame;
+                const FrameStats &s = culled.stats(), &w = whole.stats();
+                EXPECT_LE(s.sections_visible, s.sections_in_sight);
+                EXPECT_LE(s.sections_in_sight, s.sections_in_frustum);
+                EXPECT_EQ(s.sections_in_frustum, w.sections_in_frustum);
+                EXPECT_EQ(w.sections_visible, w.sections_in_frustum);
+                in_frustum += s.sections_in_frustum, in_sight += s.sections_in_sight, drawn += s.sections_visible;
+                ++frames;
+                yaw += frame % 4 == 3 ? 2 : 67;
+                if (frame % 3 == 2) eye = offset_by(eye, {rng.unit() - 0.5f, rng.unit() - 0.5f, rng.unit() - 0.5f});
             }
-            const FrameStats &s = culled.stats(), &w = whole.stats();
-            EXPECT_LE(s.sections_visible, s.sections_in_sight);
-            EXPECT_LE(s.sections_in_sight, s.sections_in_frustum);
-            EXPECT_EQ(s.sections_in_frustum, w.sections_in_frustum);
-            EXPECT_EQ(w.sections_visible, w.sections_in_frustum);
-            in_frustum += s.sections_in_frustum, in_sight += s.sections_in_sight, drawn += s.sections_visible;
-            yaw += 67; // faster than anybody turns
-            if (frame % 3 == 2) eye = offset_by(eye, {rng.unit() - 0.5f, rng.unit() - 0.5f, rng.unit() - 0.5f});
         }
     }
-    EXPECT_GT(in_frustum, 40 * 10u);
-    EXPECT_LE(drawn * 10, in_frustum * 6);
+};
+
+std::vector<WorldPos> rooms(const MazeScene& scene) {
+    return {scene.eye({4, 1, 4}), scene.eye({0, 0, 0}), scene.eye({6, 3, 2}), scene.eye({2, 2, 6})};
 }
 
-TEST_F(CullingTest, MazeLooksTheSameAtLow) {
-    turn_and_compare(Preset::low, draw);
+TEST_F(CullingTest, MazeLooksTheSameByLinesOfSight) {
+    for (const Preset preset : {Preset::low, Preset::high}) {
+        MazeScene scene(7, {7, 4, 7});
+        Turning turning;
+        turning.run(preset, {.caves = true, .occlusion = false}, scene, rooms(scene), draw);
+        EXPECT_GT(turning.in_frustum, turning.frames * 20);
+        EXPECT_LE(turning.drawn * 10, turning.in_frustum * 6);
+    }
 }
-TEST_F(CullingTest, MazeLooksTheSameAtHigh) {
-    turn_and_compare(Preset::high, draw);
+
+TEST_F(CullingTest, MazeLooksTheSameByOcclusionAlone) {
+    for (const Preset preset : {Preset::low, Preset::high}) {
+        MazeScene scene(7, {7, 4, 7});
+        Turning turning;
+        turning.run(preset, {.caves = false, .occlusion = true}, scene, rooms(scene), draw);
+        EXPECT_EQ(turning.in_sight, turning.in_frustum);
+        EXPECT_LE(turning.drawn * 10, turning.in_frustum * 6);
+    }
+}
+
+TEST_F(CullingTest, MazeLooksTheSameByBoth) {
+    MazeScene scene(8, {7, 4, 7});
+    Turning turning;
+    turning.run(Preset::high, {.caves = true, .occlusion = true}, scene, rooms(scene), draw);
+    EXPECT_LE(turning.drawn * 10, turning.in_frustum * 6);
+}
+
+// Hills, trees and a lake under open sky, where lines of sight lead almost everywhere.
+TEST_F(CullingTest, HillsLookTheSameByOcclusion) {
+    bench::SampleScene scene(4);
+    Turning turning;
+    const auto above = [&](i32 x, i32 z, double up) { return eye_at(x + 0.5, scene.ground(x, z) + up, z + 0.5); };
+    turning.run(Preset::high, {.caves = true, .occlusion = true}, scene,
+                {above(0, 0, 1.6), above(30, -20, 1.6), above(-40, 35, 12)}, draw);
+    EXPECT_LT(turning.drawn, turning.in_frustum);
 }
 
 // The walk is done again where something moved, and only there.

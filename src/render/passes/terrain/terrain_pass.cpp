@@ -29,7 +29,7 @@ Result<> TerrainPass::build(const BuildContext& context) {
         VX_TRY_ASSIGN(programs_[u32(kind.kind)],
                       context.shaders.program("terrain/terrain.vert.glsl", "terrain/terrain.frag.glsl", defines));
     }
-    return {};
+    return occlusion_.build(context);
 }
 
 void TerrainPass::declare(DeclareContext& c) {
@@ -38,11 +38,38 @@ void TerrainPass::declare(DeclareContext& c) {
     c.graph.add_target({.name = "albedo", .format = GL_RGBA8});
     c.graph.add_target({.name = "light", .format = GL_RGBA8});
     c.graph.add_target({.name = "surface", .format = GL_RGBA8UI});
-    c.graph.add_pass({"terrain",
+    const std::vector<std::string> writes{"albedo", "light", "surface", "depth"};
+    c.graph.add_pass({"terrain", {}, writes, [this](const gfx::PassContext& p) { draw(p.graph); }, ""});
+    if (!c.effects.culling.occlusion) return;
+    const auto if_split = [this](auto body) {
+        return [this, body](const gfx::PassContext&) {
+            if (!frame_->views.empty() && frame_->views[0].occlusion) body();
+        };
+    };
+    c.graph.add_pass({"occlusion", {}, writes, if_split([this] { occlusion_.test(*frame_, frame_->views[0]); }), ""});
+    c.graph.add_pass({"terrain late",
                       {},
-                      {"albedo", "light", "surface", "depth"},
-                      [this](const gfx::PassContext& p) { draw(p.graph); },
+                      writes,
+                      if_split([this] {
+                          for_each_view(*frame_, [&](u32 view, const ViewDraws& draws) {
+                              if (view == 0) draw_solids(draws.late);
+                          });
+                      }),
                       ""});
+}
+
+void TerrainPass::prepare(FrameContext& frame) {
+    for (ViewDraws& view : frame.views)
+        view.occlusion = false;
+    if (frame.effects->culling.occlusion && !frame.views.empty()) occlusion_.prepare(frame, frame.views[0]);
+}
+
+void TerrainPass::draw_solids(const TerrainInputs& in) const {
+    bind_terrain(in);
+    draw_kind(*programs_[u32(DrawKind::opaque_cubes)], in, DrawKind::opaque_cubes, true);
+    // Models decide by quad which look away (kTwoSided); cutout cubes show their far side through their holes.
+    for (DrawKind kind : {DrawKind::opaque_models, DrawKind::cutout_cubes, DrawKind::cutout_models})
+        draw_kind(*programs_[u32(kind)], in, kind, false);
 }
 
 void for_each_view(const FrameContext& frame, const std::function<void(u32, const ViewDraws&)>& body) {
@@ -74,13 +101,8 @@ void TerrainPass::draw(const gfx::FrameGraph& graph) {
     else
         glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
     // Colors need no clearing: only pixels with a depth are ever read.
-    for_each_view(*frame_, [&](u32, const ViewDraws& draws) {
-        bind_terrain(draws.inputs);
-        draw_kind(*programs_[u32(DrawKind::opaque_cubes)], draws.inputs, DrawKind::opaque_cubes, true);
-        // Models decide by quad which look away (kTwoSided); cutout cubes show their far side through their holes.
-        for (DrawKind kind : {DrawKind::opaque_models, DrawKind::cutout_cubes, DrawKind::cutout_models})
-            draw_kind(*programs_[u32(kind)], draws.inputs, kind, false);
-    });
+    for_each_view(*frame_,
+                  [&](u32, const ViewDraws& draws) { draw_solids(draws.occlusion ? draws.first : draws.inputs); });
 }
 
 } // namespace vitrail::render

@@ -1,8 +1,9 @@
-// Opaque and cutout terrain into the G-buffer: "albedo", "light", "surface", "depth". (Lighting surfaces where they are drawn
-// was slower on software OpenGL too: what is overdrawn was lit in vain.) Cracks at T-junctions: a cube quad grows outwards in its plane by kSeal
-// (terrain.vert.glsl) of a pixel.
+// Opaque and cutout terrain into the G-buffer: "albedo", "light", "surface", "depth". (Lighting surfaces where they are
+// drawn was slower on software OpenGL too: what is overdrawn was lit in vain.) Cracks at T-junctions: a cube quad grows
+// outwards in its plane by kSeal (terrain.vert.glsl) of a pixel.
 #pragma once
 
+#include "render/passes/occlusion/occlusion.h"
 #include "render/passes/pass.h"
 
 #include <array>
@@ -13,9 +14,13 @@ class TerrainPass : public RenderPass {
 public:
     Result<> build(const BuildContext& context) override;
     void declare(DeclareContext& context) override;
+    void prepare(FrameContext& frame) override;
+    u64 gpu_bytes() const override { return occlusion_.gpu_bytes(); }
 
 private:
     void draw(const gfx::FrameGraph& graph);
+    void draw_solids(const TerrainInputs& in) const;
+    Occlusion occlusion_;
     std::array<ProgramRef, u32(DrawKind::count)> programs_; // translucent: none
 };
 
