@@ -6,6 +6,7 @@
 #include "render/passes/outline/outline_pass.h"
 #include "render/passes/scene_copy/scene_copy_pass.h"
 #include "render/passes/sky/sky_pass.h"
+#include "render/passes/ssao/ssao_pass.h"
 #include "render/passes/ssr/reflections_pass.h"
 #include "render/passes/terrain/terrain_pass.h"
 #include "render/passes/tonemap/tonemap_pass.h"
@@ -17,6 +18,7 @@ std::vector<std::unique_ptr<RenderPass>> make_passes() {
     std::vector<std::unique_ptr<RenderPass>> passes;
     // Solid surfaces.
     passes.push_back(std::make_unique<TerrainPass>());
+    passes.push_back(std::make_unique<SsaoPass>());
     passes.push_back(std::make_unique<LightingPass>());
     passes.push_back(std::make_unique<SkyPass>());
     passes.push_back(std::make_unique<SceneCopyPass>());

@@ -7,17 +7,22 @@
 namespace vitrail::render {
 
 Result<> LightingPass::build(const BuildContext& context) {
-    VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "lighting/lighting.frag.glsl"));
+    std::vector<std::string> defines;
+    if (context.effects.ssao.on) defines.push_back("SSAO");
+    VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "lighting/lighting.frag.glsl", defines));
     return {};
 }
 
 void LightingPass::declare(DeclareContext& c) {
     std::vector<std::string> reads{"albedo", "light", "surface"};
+    const bool ssao = c.effects.ssao.on;
+    if (ssao) reads.push_back("ao");
     c.graph.add_target({.name = "color", .format = GL_RGBA16F, .linear = true});
     c.graph.add_pass({"lighting",
                       reads,
                       {"color"},
-                      [this](const gfx::PassContext& p) {
+                      [this, ssao](const gfx::PassContext& p) {
+                          if (ssao) glBindTextureUnit(u32(Unit::ao), p.graph.target("ao").name());
                           // Depth is sampled while it is attached: allowed, since nothing writes it between barriers.
                           glTextureBarrier();
                           draw_screen(*program_, frame_->plain_array, ScreenArea::surfaces,

@@ -7,7 +7,12 @@ vec3 shade(Surface s, vec3 place, vec3 towards, uint view) {
     // Two sides that both turn from the sun must still differ, or edges drown.
     float edge = 1.0 - 0.10 * abs(s.normal.x);
     float sky = s.light.a * sqrt(s.light.a);
-    vec3 sum = sky_irradiance(s.normal) * (sky * edge * s.ao) + sun * (facing * (0.35 + 0.65 * s.ao));
+    vec3 sum = sky_irradiance(s.normal) * (sky * edge * s.ao);
+#ifdef SSAO
+    sum += sun * facing; // corners are dark by what they see of the sky alone
+#else
+    sum += sun * (facing * (0.35 + 0.65 * s.ao));
+#endif
     // Lamps: between a linear and a square law. Each channel loses one level a block, so far from a lamp only its strongest
     // color would be left: the weaker a light, the nearer to gray it is taken.
     float strongest = max(max(s.light.r, s.light.g), s.light.b);

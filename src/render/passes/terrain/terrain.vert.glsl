@@ -114,6 +114,10 @@ void main() {
         bool away = dot(normal, from_eye) > 0.0;
         gone = away && (flags & 1u) == 0u;
         if (away) normal = -normal;
+        // Slabs, stairs and fences have faces along the axes too: those know them exactly, whatever relief does later.
+        vec3 straight = step(vec3(0.999), abs(normal));
+        if (straight.x + straight.y + straight.z == 1.0)
+            what = uint(dot(straight, vec3(0.0, 2.0, 4.0))) + (dot(normal, straight) > 0.0 ? 1u : 0u);
         if ((flags & 2u) != 0u) {
             normal = vec3(0.0, 1.0, 0.0);
             what = 7u; // kFacePlant
