@@ -4,9 +4,10 @@
 
 #include "render_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <optional>
 
 namespace vitrail::render {
 
@@ -15,14 +16,22 @@ public:
     BlockRegistry registry;
 
     BoxScene() { registry.content_roots = {test_content()}; }
-    void set(i32 x, i32 y, i32 z, const char* texture) { blocks_[{x, y, z}] = texture; }
+    // Coordinates from -kHalf to kHalf - 1.
+    void set(i32 x, i32 y, i32 z, const char* texture) {
+        blocks_[{x, y, z}] = texture;
+        filled_[index(x, y, z)] = true;
+    }
+    void clear(i32 x, i32 y, i32 z) {
+        blocks_.erase({x, y, z});
+        filled_[index(x, y, z)] = false;
+    }
     void fill(IVec3 from, IVec3 to, const char* texture) { // both ends belong to it
         for (i32 y = from.y; y <= to.y; ++y)
             for (i32 z = from.z; z <= to.z; ++z)
                 for (i32 x = from.x; x <= to.x; ++x)
                     set(x, y, z, texture);
     }
-    bool solid(i32 x, i32 y, i32 z) const { return blocks_.contains({x, y, z}); }
+    bool solid(i32 x, i32 y, i32 z) const { return inside(x, y, z) && filled_[index(x, y, z)]; }
 
     void give(Renderer& renderer) {
         std::map<std::array<i32, 3>, std::array<std::vector<Quad>, 6>> sections;
@@ -79,6 +88,12 @@ public:
     }
 
 private:
+    static constexpr i32 kHalf = 48;
+    static bool inside(i32 x, i32 y, i32 z) { return std::max({x, y, z}) < kHalf && std::min({x, y, z}) >= -kHalf; }
+    static std::size_t index(i32 x, i32 y, i32 z) {
+        return (std::size_t(y + kHalf) * 2 * kHalf + std::size_t(z + kHalf)) * 2 * kHalf + std::size_t(x + kHalf);
+    }
+    std::vector<bool> filled_ = std::vector<bool>(8 * kHalf * kHalf * kHalf);
     std::map<std::array<i32, 3>, const char*> blocks_;
 };
 

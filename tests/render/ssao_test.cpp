@@ -18,7 +18,8 @@ protected:
         return e;
     }
     static scene::FrameView frame_of(const Look& look) {
-        return bench::SampleScene::frame(look.width, look.height, eye_at(look.x, look.y, look.z), look.yaw, look.pitch, 8);
+        return bench::SampleScene::frame(look.width, look.height, eye_at(look.x, look.y, look.z), look.yaw, look.pitch,
+                                         8);
     }
     static TargetPixels ao_of(Renderer& renderer, const scene::FrameView& frame) {
         EXPECT_TRUE(renderer.render(frame));
@@ -34,7 +35,8 @@ protected:
         u32 open = 0;
         for (u32 i = 0; i < kRings; ++i)
             for (u32 k = 0; k < kTurns; ++k) {
-                const float s = (float(i) + 0.5f) / kRings, r = std::sqrt(s), a = 6.2831853f * (float(k) + 0.37f) / kTurns;
+                const float s = (float(i) + 0.5f) / kRings, r = std::sqrt(s),
+                            a = 6.2831853f * (float(k) + 0.37f) / kTurns;
                 const Vec3 d = u * (r * std::cos(a)) + v * (r * std::sin(a)) + n * std::sqrt(1 - s);
                 open += !scene.trace(at + n * 1e-3f, d, radius);
             }
@@ -44,13 +46,13 @@ protected:
         u32 pixels = 0, far = 0, shaded = 0;
         double sum = 0, bias = 0;
     };
-    // Every third pixel against the rays; `far`: off by more than 0.15.
+    // Every fourth pixel against the rays; `far`: off by more than 0.15.
     static Compared compare(const BoxScene& scene, const Look& look, float radius, const TargetPixels& ao) {
         const scene::FrameView frame = frame_of(look);
         const Vec3 eye{float(look.x), float(look.y), float(look.z)};
         Compared c;
-        for (u32 y = 1; y < frame.height; y += 3)
-            for (u32 x = 1; x < frame.width; x += 3) {
+        for (u32 y = 1; y < frame.height; y += 4)
+            for (u32 x = 1; x < frame.width; x += 4) {
                 const Vec3 ray = pixel_ray(frame, x, y);
                 const auto hit = scene.trace(eye, ray, 200);
                 if (!hit) continue;
@@ -81,18 +83,6 @@ protected:
                     for (u32 k = 0; k < 3; ++k)
                         image.pixels.push_back(u8(ao.at(x, y)[0] * 255));
             (void)write_png(fmt::format("/tmp/ssao_{}.png", name), image);
-            Image truth{ao.width, ao.height, 3, {}};
-            const scene::FrameView frame = frame_of(look);
-            const Vec3 eye{float(look.x), float(look.y), float(look.z)};
-            for (u32 y = 0; y < ao.height; ++y)
-                for (u32 x = 0; x < ao.width; ++x) {
-                    const Vec3 ray = pixel_ray(frame, x, y);
-                    const auto hit = scene.trace(eye, ray, 200);
-                    const float t = hit ? open_sky(scene, eye + ray * hit->distance, hit->normal, 1.2f) : 1;
-                    for (u32 k = 0; k < 3; ++k)
-                        truth.pixels.push_back(u8(t * 255));
-                }
-            (void)write_png(fmt::format("/tmp/ssao_{}_truth.png", name), truth);
         }
     }
 };
@@ -101,7 +91,7 @@ TEST_F(Ssao, CornerIsAsDarkAsRaysSay) {
     BoxScene scene;
     scene.fill({-8, -1, -4}, {8, -1, 8}, "white");
     scene.fill({-8, 0, 5}, {8, 5, 5}, "white");
-    expect_like_rays("corner", scene, {0.5, 2.4, 1.0, 0, 25}, 0.04, 0.03);
+    expect_like_rays("corner", scene, {0.5, 2.4, 1.0, 0, 25}, 0.03, 0.02);
 }
 
 TEST_F(Ssao, StepsAreAsDarkAsRaysSay) {
@@ -109,19 +99,18 @@ TEST_F(Ssao, StepsAreAsDarkAsRaysSay) {
     for (i32 k = 0; k < 5; ++k)
         scene.fill({-6, -1, k + 2}, {6, k, 9}, "white");
     scene.fill({-6, -1, -3}, {6, -1, 2}, "white");
-    expect_like_rays("steps", scene, {0.5, 4.2, -1.5, 10, 22}, 0.05, 0.05);
+    expect_like_rays("steps", scene, {0.5, 4.2, -1.5, 10, 22}, 0.08, 0.06);
 }
 
 TEST_F(Ssao, NicheIsAsDarkAsRaysSay) {
     BoxScene scene;
     scene.fill({-8, -1, -4}, {8, -1, 8}, "white");
     scene.fill({-8, 0, 4}, {8, 5, 7}, "white");
-    BoxScene carved;
-    for (i32 x = -8; x <= 8; ++x)
-        for (i32 y = -1; y <= 5; ++y)
-            for (i32 z = -4; z <= 8; ++z)
-                if (scene.solid(x, y, z) && !(z >= 4 && z < 6 && x >= -1 && x <= 1 && y >= 0 && y <= 1)) carved.set(x, y, z, "white");
-    expect_like_rays("niche", carved, {0.9, 1.7, 0.5, 0, 8}, 0.05, 0.06);
+    for (i32 x = -1; x <= 1; ++x)
+        for (i32 y = 0; y <= 1; ++y)
+            for (i32 z = 4; z <= 5; ++z)
+                scene.clear(x, y, z);
+    expect_like_rays("niche", scene, {0.9, 1.7, 0.5, 0, 8}, 0.04, 0.04);
 }
 
 TEST_F(Ssao, FloatingBlockLetsLightPass) {
@@ -130,7 +119,7 @@ TEST_F(Ssao, FloatingBlockLetsLightPass) {
     scene.set(0, 0, 4, "white");
     scene.fill({2, 1, 4}, {3, 1, 5}, "white");
     scene.set(-3, 1, 5, "white");
-    expect_like_rays("floating", scene, {0.5, 3.2, 0.0, 0, 30}, 0.05, 0.06);
+    expect_like_rays("floating", scene, {0.5, 3.2, 0.0, 0, 30}, 0.03, 0.02);
 }
 
 } // namespace vitrail::render

@@ -18,7 +18,7 @@ layout(location = 0) out float o_ao;
 
 const float kPi = 3.14159265, kHalfPi = 1.57079633;
 const float kThickness = 1.0; // blocks, of what stands there
-const float kJoin = 0.8;      // radii: samples nearer to each other belong to one thing
+const float kJoin = 1.5;      // radii: samples nearer to each other belong to one thing
 const float kWidest = 0.3;    // of the screen's height: near things are looked at in a smaller radius
 
 vec3 place_of(ViewData view, ivec2 pixel, float depth) {
@@ -81,14 +81,20 @@ void main() {
                 // Not the sky, not through a portal, not blades of grass.
                 if (far <= 0.0 || (what & 7u) != number || (what >> 3 & 7u) == kFacePlant) continue;
                 vec3 s = place_of(view, there, far) - place;
-                if (dot(s, s) > radius * radius) continue;
                 // The pixel's middle lies beside the slice: moved along the surface into it, heights stay exact.
                 s -= back_onto * dot(s, axis);
+                vec3 gap = s - last;
+                bool joined = dot(gap, gap) < radius * radius * (kJoin * kJoin);
+                if (dot(s, s) > radius * radius) {
+                    // What reaches out of the radius counts until there.
+                    if (!joined) continue;
+                    float a = dot(gap, gap), b = dot(last, gap), c = dot(last, last) - radius * radius;
+                    s = last + gap * ((sqrt(max(b * b - a * c, 0.0)) - b) / max(a, 1e-9));
+                }
                 float front = atan(dot(s, across), dot(s, to_eye));
                 vec3 behind = s - to_eye * kThickness;
                 float back = atan(dot(behind, across), dot(behind, to_eye));
-                vec3 gap = s - last;
-                float other = dot(gap, gap) < radius * radius * (kJoin * kJoin) ? last_angle : front;
+                float other = joined ? last_angle : front;
                 last = s, last_angle = front;
                 vec2 ends = side == 0 ? vec2(min(front, other), max(back, other)) : vec2(min(back, other), max(front, other));
                 ends = clamp(ends, g - kHalfPi, g + kHalfPi);

@@ -1,5 +1,5 @@
-// "ao": how much of the sky over each surface is free, 0..1, from depth and the faces of the G-buffer; lighting takes it for
-// light that comes from all around.
+// "ao": how much of the sky over each surface is free, 0..1, from depth and the faces of the G-buffer; lighting takes
+// it for light that comes from all around.
 #pragma once
 
 #include "render/passes/pass.h"
