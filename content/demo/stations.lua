@@ -467,9 +467,9 @@ do
       fill(x, floor - 4, z, x, floor, z, n > .3 and "gravel" or "sand")
       if deep >= 1 then fill(x, floor + 1, z, x, SEA, z, "water") end
       fill(x, SEA + 1, z, x, SEA + 6, z, "air")
-      if math.random() < .05 and deep > 2 then
+      if math.random() < .05 and deep > 4 then
         local kind = pick { "tube", "brain", "bubble", "fire", "horn" }
-        sphere(x, floor + 1, z, .9 + math.random() * .9, kind .. "_coral_block")
+        sphere(x, floor + 1, z, .9 + math.random() * .7, kind .. "_coral_block")
       elseif math.random() < .06 and deep > 2 then
         set(x, floor + 1, z, "seagrass")
       end
@@ -487,7 +487,7 @@ do
   for x = x0, x1 do
     for z = z0, z1 do -- steps down from three sides, two blocks deep each
       local down = math.min(5, math.min(x - x0, x1 - x, z - z0) // 2 + 1)
-      fill(x, y - 2, z, x, FEET - 1 - down, z, "smooth_stone")
+      fill(x, y - 2, z, x, FEET - 1 - down, z, "polished_andesite")
       fill(x, FEET - down, z, x, FEET - 1, z, "air")
     end
   end
