@@ -10,7 +10,7 @@ biome("taiga", -208, -208, 207, -96)
 biome("forest", -40, 58, 207, 207)
 biome("beach", -208, -95, -61, 207)
 
-local MARBLE, BRICK, SLATE = "vitrail:polished_marble", "vitrail:marble_bricks", "vitrail:slate_bricks"
+local MARBLE, POLISHED_SLATE, BRICK = "vitrail:polished_marble", "vitrail:polished_slate", "vitrail:marble_bricks"
 
 -- Helpers -----------------------------------------------------------------------------------------------------------------------
 
@@ -314,7 +314,7 @@ do
   level(x0 - 1, z0 - 1, x1 + 1, z1 + 1, y - 1, BRICK, 16)
   fill(x0 - 1, 48, z0 - 1, x0 - 1, y - 1, z1 + 1, BRICK)
   for x = x0 + 1, x1 - 1 do
-    for z = z0 + 1, z1 - 1 do set(x, y - 1, z, ((x + z) % 2 == 0) and "obsidian" or "smooth_quartz") end
+    for z = z0 + 1, z1 - 1 do set(x, y - 1, z, ((x + z) % 2 == 0) and POLISHED_SLATE or MARBLE) end
   end
   fill(x1, y, z0, x1, y + 8, z1, BRICK) -- the back wall, its doors and niches
   for z = z0 + 4, z1 - 4, 7 do

@@ -54,8 +54,8 @@ def granular(name, base, a, b, counts=(30, 30), rough=.84):
     return t
 
 
-def polished(name, of, rough=.45):
-    """The same mineral, ground flat, with a worked rim."""
+def polished(name, of, rough=.45, relief=1.):
+    """The same mineral, ground flat, with a worked rim; relief: what is left of it."""
     painter, args, kw = of
     t = painter(name, *args, **kw)
     d = np.minimum(np.minimum(X, 31 - X), np.minimum(Y, 31 - Y))
@@ -66,7 +66,7 @@ def polished(name, of, rough=.45):
     t.light(np.where(rim & ((Y < 1) | (X < 1)), .16, 0) + np.where(rim & ((Y > 30) | (X > 30)), -.22, 0))
     inner = (d >= 1) & (d < 2)
     t.light(np.where(inner & ((Y < 2) | (X < 2)), .06, 0) + np.where(inner & ((Y > 29) | (X > 29)), -.08, 0))
-    t.h = t.h + ss(0, 2.5, d) * 1.5
+    t.h = (t.h + ss(0, 2.5, d) * 1.5) * relief
     t.r[:] = rough
     return t
 
@@ -249,8 +249,10 @@ NATURAL = {
 }
 for _n, (_p, _a, _k) in NATURAL.items():
     add(_n, _p, *_a, **_k)
-for _n in ("granite", "diorite", "andesite", "tuff", "marble", "slate", "deepslate", "blackstone"):
+for _n in ("granite", "diorite", "andesite", "tuff", "deepslate", "blackstone"):
     add("polished_" + _n, polished, NATURAL[_n])
+for _n in ("marble", "slate"): # to a shine: halls are paved with them
+    add("polished_" + _n, polished, NATURAL[_n], .14, .3)
 add("smooth_stone_slab_side", polished, NATURAL["smooth_stone"], .6)
 add("mossy_cobblestone", moss_over, NATURAL["cobblestone"])
 for _red, _c in (("", "#dbcb98"), ("red_", "#b4653a")):
