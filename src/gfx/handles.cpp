@@ -75,6 +75,7 @@ u32 bytes_per_texel(u32 format) {
     case GL_DEPTH32F_STENCIL8:
     case GL_RG32UI:
     case GL_RG32F:
+    case GL_RGBA16:
     case GL_RGBA16UI:
         return 8;
     case GL_RGBA32F:

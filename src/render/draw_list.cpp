@@ -37,13 +37,13 @@ void push(std::vector<DrawCommand>& out, u32 first_quad, u32 count, u32 record, 
 
 } // namespace
 
-void build_draw_list(const std::vector<VisibleSection>& visible, bool two_sided_cutout, DrawList& out) {
+void build_draw_list(const std::vector<VisibleSection>& visible, bool two_sided_cutout, DrawList& out, u32 facing_all) {
     out.clear();
     for (const VisibleSection& v : visible) {
         const Section& s = *v.section;
         const u32 record = u32(out.records.size());
         out.records.push_back({v.offset.x, v.offset.y, v.offset.z, s.light_slot | s.tint_slot << 16});
-        const u32 facing = facing_directions(v.offset);
+        const u32 facing = facing_all ? facing_all : facing_directions(v.offset);
         for (QuadPass pass : {QuadPass::opaque, QuadPass::cutout}) {
             const bool cutout = pass == QuadPass::cutout;
             auto& cubes = out.commands[u32(cutout ? DrawKind::cutout_cubes : DrawKind::opaque_cubes)];

@@ -34,7 +34,8 @@ struct DrawList {
 // Bit f is set where faces of direction f of a section at this offset can look at the eye (in its block at 0, 0, 0).
 u32 facing_directions(IVec3 offset);
 
-// visible: nearest first. two_sided_cutout: keep cutout cubes that look away.
-void build_draw_list(const std::vector<VisibleSection>& visible, bool two_sided_cutout, DrawList& out);
+// visible: nearest first. two_sided_cutout: keep cutout cubes that look away. facing: bit f is set where cube faces of
+// direction f are drawn; 0: those that can look at the eye.
+void build_draw_list(const std::vector<VisibleSection>& visible, bool two_sided_cutout, DrawList& out, u32 facing = 0);
 
 } // namespace vitrail::render

@@ -16,6 +16,8 @@ struct FrameStats {
     u32 sections_in_frustum = 0, sections_in_sight = 0, sections_visible = 0;
     u32 draws = 0;                // commands in multi-draws
     u64 quads = 0, triangles = 0; // drawn
+    u32 shadow_draws = 0;         // into shadow maps drawn in this frame
+    u64 shadow_quads = 0;
     u64 quads_held = 0;
     u64 gpu_bytes = 0;                               // buffers, textures and targets, without the driver's padding
     u64 cpu_bytes = 0;                               // what the renderer keeps of sections

@@ -5,6 +5,7 @@
 #include "render/passes/lighting/lighting_pass.h"
 #include "render/passes/outline/outline_pass.h"
 #include "render/passes/scene_copy/scene_copy_pass.h"
+#include "render/passes/shadow/shadow_pass.h"
 #include "render/passes/sky/sky_pass.h"
 #include "render/passes/ssao/ssao_pass.h"
 #include "render/passes/ssr/reflections_pass.h"
@@ -16,6 +17,7 @@ namespace vitrail::render {
 
 std::vector<std::unique_ptr<RenderPass>> make_passes() {
     std::vector<std::unique_ptr<RenderPass>> passes;
+    passes.push_back(std::make_unique<ShadowPass>());
     // Solid surfaces.
     passes.push_back(std::make_unique<TerrainPass>());
     passes.push_back(std::make_unique<SsaoPass>());

@@ -31,7 +31,7 @@ Result<TargetPixels> Renderer::read_target(const std::string& name) {
         return fail(ErrorCode::not_found, fmt::format("no target {}", name));
     // After a frame, targets with history have changed places.
     const gfx::Texture& texture = graph.target(graph.has_history(name) ? name + "@before" : name);
-    TargetPixels out{texture.width, texture.height, 4, {}};
+    TargetPixels out{texture.width, texture.height * texture.depth, 4, {}}; // layers one above the other
     out.values.resize(std::size_t(out.width) * out.height * 4);
     const u32 f = texture.format;
     const bool depth = f == GL_DEPTH_COMPONENT32F || f == GL_DEPTH_COMPONENT24 || f == GL_DEPTH_COMPONENT16 ||

@@ -116,6 +116,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     FrameStats& stats = impl.stats;
     stats.draws = stats.sections_visible = stats.sections_in_frustum = stats.sections_in_sight = 0;
     stats.quads = 0;
+    stats.shadow_draws = 0, stats.shadow_quads = 0;
     frame.frame = &view;
     frame.effects = &impl.effects;
     frame.context = &impl.context;
@@ -159,6 +160,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     glBindBufferRange(GL_UNIFORM_BUFFER, 0, slice.buffer, GLintptr(slice.offset), sizeof frame.uniforms);
     impl.graph.execute();
     impl.ring.end_frame();
+    impl.sections.forget_changes();
     impl.keep_views(view);
     ++frame.number;
 

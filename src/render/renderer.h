@@ -38,7 +38,8 @@ struct RendererOptions {
 // Where a picture goes: 0 is the window; kOwnPicture the renderer's own target, read by read_pixels.
 inline constexpr u32 kOwnPicture = ~0u;
 
-// A target's texels as floats (unsigned integers as they are), for tests: rows from the top, `channels` values a texel.
+// A target's texels as floats (unsigned integers as they are), for tests: rows from the top, `channels` values a texel;
+// the last layer of an array first.
 struct TargetPixels {
     u32 width = 0, height = 0, channels = 0;
     std::vector<float> values;

@@ -49,6 +49,7 @@ void SectionStore::release_quads(Section& section) {
 void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
     VX_ASSERT(mesh.first.back() == mesh.quads.size());
     Section& section = obtain(key);
+    if (section.quad_count > 0 || !mesh.quads.empty()) changes_.push_back(key);
     release_quads(section);
     const SectionSight sight{mesh.connections, mesh.openings};
     if (!(section.sight == sight)) ++revision_;
@@ -77,6 +78,13 @@ void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
 void SectionStore::set_light(SectionKey key, const LightBrick& brick) {
     Section& section = obtain(key);
     section.light_slot = light_.set(section.light_slot, brick);
+    u32 any = brick.uniform ? brick.value.bits : 0;
+    if (!brick.uniform)
+        for (u16 cell : brick.cells)
+            any |= cell;
+    const bool sky_lit = Light(u16(any)).sky() > 0;
+    if (sky_lit != section.sky_lit && section.quad_count > 0) changes_.push_back(key);
+    section.sky_lit = sky_lit;
 }
 
 void SectionStore::set_tints(SectionKey key, const TintGrid& tints) {
@@ -90,6 +98,7 @@ void SectionStore::remove(SectionKey key) {
     const auto at = sections_.find(key);
     if (at == sections_.end()) return;
     Section& section = *at->second;
+    if (section.quad_count > 0) changes_.push_back(key);
     release_quads(section);
     light_.free(section.light_slot);
     tints_.free(section.tint_slot);

@@ -30,6 +30,7 @@ struct Section {
     std::array<u32, SectionMesh::kGroups + 1> first{}; // as SectionMesh::first
     SectionSight sight{0, kWholeFaces};
     u32 light_slot = 0, tint_slot = 0;
+    bool sky_lit = true;                       // any light of the sky touches it
     u32 index = 0;                             // in SectionStore::all()
     u32 slot = 0;                              // its own while it is held: what the GPU remembers of it
     std::vector<Quad> translucent;             // copy for sorting
@@ -58,6 +59,9 @@ public:
     const std::vector<Section*>& all() const { return all_; }
     const std::vector<SectionPlace>& places() const { return places_; } // in the order of all()
     u64 revision() const { return revision_; }                          // grows where culling may change
+    // Sections whose shape, or whether the sky lights them, changed since forget_changes(), in any order, some twice.
+    const std::vector<SectionKey>& changes() const { return changes_; }
+    void forget_changes() { changes_.clear(); }
 
     u32 slot_count() const { return slot_count_; } // slots lie below it
 
@@ -86,6 +90,7 @@ private:
     LightAtlas light_;
     TintTable tints_;
     u64 revision_ = 1;
+    std::vector<SectionKey> changes_;
 };
 
 } // namespace vitrail::render

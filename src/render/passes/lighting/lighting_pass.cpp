@@ -1,13 +1,14 @@
 #include "render/passes/lighting/lighting_pass.h"
 
 #include "render/passes/screen_pass.h"
+#include "render/passes/shadow/shadow_pass.h"
 
 #include <epoxy/gl.h>
 
 namespace vitrail::render {
 
 Result<> LightingPass::build(const BuildContext& context) {
-    std::vector<std::string> defines;
+    std::vector<std::string> defines = shadow_defines(context.effects);
     if (context.effects.ssao.on) defines.push_back("SSAO");
     VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "lighting/lighting.frag.glsl", defines));
     return {};

@@ -3,6 +3,7 @@
 // CUTOUT: holes. NORMAL_MAPS: relief.
 #include "common/frame.glsl"
 #include "common/normal.glsl"
+#include "common/surface.glsl"
 
 layout(location = 0) in vec3 v_uv_ao;
 layout(location = 1) in vec3 v_light_at;
@@ -38,7 +39,9 @@ void main() {
     vec4 material = texture(t_material, at);
 #ifdef NORMAL_MAPS
     vec3 n = normal_from_bytes(uvec2(v_surface.y & 255u, v_surface.y >> 8 & 255u));
-    n = relief(n, material.rg * 2.0 - 1.00392157);
+    // What is tilted keeps its plain normal: shadows need that of the geometry, and it has no other place.
+    vec3 raised = relief(n, material.rg * 2.0 - 1.00392157);
+    if ((v_surface.y >> 19 & 7u) != kFaceModel) n = raised;
 #endif
 #ifdef CUTOUT
     if (albedo.a < 0.5) discard;

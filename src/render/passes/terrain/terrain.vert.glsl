@@ -1,5 +1,7 @@
 // Pulls 8-byte quads (render/meshing/quad.h) by gl_VertexID. MODEL: 0 cube quads, 1 model quads, 2 either.
 // SMOOTH: blended tints. SWAY: wind. NORMAL_MAPS, LIQUID: the fragment needs the place.
+// SHADOW: into a shadow map (shadow/shadow_pass.cpp), sections relative to the map's anchor block; CUTOUT and COLORED
+// say what its fragments need.
 #include "common/frame.glsl"
 #include "common/normal.glsl"
 
@@ -8,6 +10,16 @@ layout(std430, binding = 0) readonly buffer Quads { uvec2 quads[]; };
 layout(std430, binding = 1) readonly buffer Tints { uint tints[]; };
 layout(std430, binding = 2) readonly buffer FixedTints { uint fixed_tints[]; };
 layout(std430, binding = 3) readonly buffer Models { uint models[]; };
+#ifdef SHADOW
+layout(location = 2) uniform vec4 u_map[4]; // rows_from_anchor in shadow/shadow_cascades.h
+layout(location = 7) uniform vec4 u_toward; // to the light; w: blocks that a cube quad grows by on each side
+#if defined(CUTOUT) || defined(COLORED)
+layout(location = 0) out vec3 v_look; // texture coordinates, layer
+#endif
+#ifdef COLORED
+layout(location = 1) flat out vec4 v_tint; // w: 1 for liquids
+#endif
+#else
 layout(location = 0) uniform uint u_view;
 layout(location = 1) uniform vec4 u_light_atlas; // xyz: 1 / texels; w: bricks a row
 
@@ -22,6 +34,7 @@ layout(location = 4) out vec3 v_position;
 layout(location = 5) out vec3 v_local;
 #endif
 out float gl_ClipDistance[1];
+#endif
 
 const uint kFlagLiquid = 1u;
 const float kLiquidDrop = 28.0 / 256.0; // render/meshing/quad.h
@@ -110,10 +123,12 @@ void main() {
         int nw = int(models[at + 10u]);
         normal = vec3(bitfieldExtract(nw, 0, 8), bitfieldExtract(nw, 8, 8), bitfieldExtract(nw, 16, 8)) * (1.0 / 127.0);
         uint flags = uint(nw) >> 24;
+#ifndef SHADOW
         vec3 from_eye = vec3(in_section.xyz) + local - views[u_view].fraction.xyz;
         bool away = dot(normal, from_eye) > 0.0;
         gone = away && (flags & 1u) == 0u;
         if (away) normal = -normal;
+#endif
         // Slabs, stairs and fences have faces along the axes too: those know them exactly, whatever relief does later.
         vec3 straight = step(vec3(0.999), abs(normal));
         if (straight.x + straight.y + straight.z == 1.0)
@@ -131,6 +146,22 @@ void main() {
 #endif
     }
 #endif
+#ifdef SHADOW
+    // Rounded to the rasterizer's own steps before the center is taken away, which is exact: a map around another center
+    // is the same picture moved by whole texels.
+    vec3 place = vec3(in_section.xyz) + local + grow * u_toward.w;
+    vec2 at_map = vec2(dot(u_map[0].xyz, place), dot(u_map[1].xyz, place));
+    at_map = floor(at_map * 256.0 + 0.5) * (1.0 / 256.0) - u_map[3].xy;
+    gl_Position = vec4(at_map * u_map[3].z, dot(u_map[2], vec4(place, 1.0)), 1.0);
+#if defined(CUTOUT) || defined(COLORED)
+    v_look = vec3(uv, float(q.y & 0xffffu));
+#endif
+#ifdef COLORED
+    v_tint = vec4(tint_of(q.y >> 16 & 7u, q.y >> 19 & 255u, uint(in_section.w) >> 16, local.xz), float(q.y >> 28 & 1u));
+    // Light that enters a block of glass leaves it too: one face of the two counts.
+    if (dot(normal, u_toward.xyz) <= 0.0) gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
+#endif
+#else
     ViewData view = views[u_view];
     vec3 position = vec3(in_section.xyz) + local - view.fraction.xyz;
     // Cracks at T-junctions are rounding, far less than a pixel: each cube quad grows by a hair.
@@ -152,5 +183,6 @@ void main() {
 #endif
 #ifdef LIQUID
     v_local = local;
+#endif
 #endif
 }

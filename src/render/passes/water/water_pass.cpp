@@ -1,5 +1,6 @@
 #include "render/passes/water/water_pass.h"
 
+#include "render/passes/shadow/shadow_pass.h"
 #include "render/passes/terrain/terrain_pass.h"
 
 #include <epoxy/gl.h>
@@ -9,6 +10,8 @@ namespace vitrail::render {
 Result<> WaterPass::build(const BuildContext& context) {
     std::vector<std::string> defines = terrain_defines(context.effects);
     defines.insert(defines.end(), {"MODEL 2", "LIQUID"});
+    const auto shadows = shadow_defines(context.effects);
+    defines.insert(defines.end(), shadows.begin(), shadows.end());
     if (context.effects.water.waves) defines.push_back("WAVES");
     if (context.effects.water.refraction) defines.push_back("SEES_DEPTH");
     VX_TRY_ASSIGN(program_, context.shaders.program("terrain/terrain.vert.glsl", "water/water.frag.glsl", defines));
