@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <epoxy/gl.h>
 #include <fmt/chrono.h>
@@ -115,6 +116,13 @@ static CameraPose camera(const GameState& state) {
     return pose;
 }
 
+static replica::Gaze gaze(const GameState& state, const CameraPose& pose) {
+    const float up = std::tan(pose.fov_deg * kRadiansADegree * 0.5f);
+    const float aside = up * float(state.window->width()) / float(std::max(state.window->height(), 1u));
+    return {pose.eye.at, look_direction(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree),
+            std::atan(std::sqrt(up * up + aside * aside))};
+}
+
 static void update_world(GameState& state, float seconds) {
     replica::Replica& replica = state.game->replica();
     if (!replica.poll()) {
@@ -128,6 +136,7 @@ static void update_world(GameState& state, float seconds) {
     for (const auto& notice : replica.take_notices())
         say(state, notice.from.empty() ? notice.text : fmt::format("{}: {}", notice.from, notice.text));
     const CameraPose pose = camera(state);
+    replica.ask_for_sections(gaze(state, pose));
     state.hit = pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree), kReach);
     act_on_world(state);
     state.feeder->update(replica, block_of(pose.eye.at), feed_budget_ms(seconds));

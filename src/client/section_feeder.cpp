@@ -34,6 +34,7 @@ void SectionFeeder::mark(ChunkPos at, bool mesh, u64 now) {
     if (!s.mesh && !s.light) ++waiting_;
     (mesh ? s.mesh : s.light) = true;
     s.dirty_since_ns = now;
+    if (!std::exchange(s.listed, true)) waiting_at_.push_back(at);
 }
 
 void SectionFeeder::mark_by_neighbor(ChunkPos at, u64 now) {
@@ -105,11 +106,16 @@ void SectionFeeder::start_jobs(replica::Replica& replica, BlockPos eye, u64 now,
     std::vector<Candidate> candidates;
     const ChunkPos center = chunk_of(eye);
     const bool few = waiting_ <= kFewSections;
-    for (const auto& [at, s] : sections_) {
-        if ((!s.mesh && !s.light) || s.in_flight) continue;
-        if (!few && now - s.dirty_since_ns < kQuietNs) continue;
-        candidates.push_back({distance_squared(at, center), at});
-    }
+    std::erase_if(waiting_at_, [&](ChunkPos at) {
+        const auto found = sections_.find(at);
+        if (found == sections_.end()) return true;
+        Section& s = found->second;
+        s.listed = s.mesh || s.light;
+        if (!s.listed) return true;
+        if (!s.in_flight && (few || now - s.dirty_since_ns >= kQuietNs))
+            candidates.push_back({distance_squared(at, center), at});
+        return false;
+    });
     std::make_heap(candidates.begin(), candidates.end());
     const u64 begin = now_ns();
     for (std::size_t looked = 1; !candidates.empty() && in_flight_ < in_flight_most_; ++looked) {
@@ -118,6 +124,7 @@ void SectionFeeder::start_jobs(replica::Replica& replica, BlockPos eye, u64 now,
         const auto [distance, at] = candidates.back();
         candidates.pop_back();
         Section& s = sections_[at];
+        if ((!s.mesh && !s.light) || s.in_flight) continue; // listed twice: it went and came again
         const bool mesh = std::exchange(s.mesh, false);
         s.light = false;
         --waiting_;

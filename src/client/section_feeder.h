@@ -54,6 +54,7 @@ private:
     struct Section {
         bool mesh = false, light = false; // what waits to be done
         bool in_flight = false;
+        bool listed = false; // in waiting_at_
         u64 job = 0; // the last one begun; an answer of another is of a section that went and came again
         bool air = false;  // uploaded as such: only its own blocks can change that
         bool draws = true; // false: what is uploaded has no quads, so its light matters to nobody
@@ -83,6 +84,7 @@ private:
     scene::BlockModels models_;
     std::vector<render::BiomeTint> tints_; // by BiomeId
     std::unordered_map<ChunkPos, Section> sections_;
+    std::vector<ChunkPos> waiting_at_; // all that wait; and some that went or were begun since it was last looked through
     std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
     std::vector<Answer> taken_;
     DimensionId dimension_{};

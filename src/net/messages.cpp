@@ -74,6 +74,8 @@ const char* message_name(MessageType type) {
         return "say";
     case MessageType::hotbar:
         return "hotbar";
+    case MessageType::ask_sections:
+        return "ask_sections";
     case MessageType::welcome:
         return "welcome";
     case MessageType::registry_data:

@@ -23,6 +23,7 @@ inline constexpr u32 kProtocolVersion = 1;
 inline constexpr u64 kMostMessageBytes = 4u << 20; // a longer message ends the session
 inline constexpr u32 kMostCommandsABatch = 240;    // 4 seconds of steps
 inline constexpr u32 kMostSectionsAMessage = 256;
+inline constexpr u32 kMostSectionsAsked = 512;
 inline constexpr u32 kMostViewDistance = 32; // chunks
 
 enum class MessageType : u8 {
@@ -35,6 +36,7 @@ enum class MessageType : u8 {
     leave = 6,
     say = 7,
     hotbar = 8,
+    ask_sections = 9,
     // server to client
     welcome = 64,
     registry_data = 65,
@@ -218,6 +220,16 @@ struct Hotbar {
                                               field<2>("selected", &Hotbar::selected, {.most_value = 15})};
 };
 
+// Sections that the player could see and the client does not hold, the most wanted first. Replaces what was asked
+// before; the server answers with those that it would send anyway, sooner.
+struct AskSections {
+    static constexpr MessageType kType = MessageType::ask_sections;
+    u32 dimension = 0;
+    std::vector<WireChunkPos> at;
+    static constexpr auto fields = std::tuple{field<1>("dimension", &AskSections::dimension),
+                                              field<2>("at", &AskSections::at, {.most = kMostSectionsAsked})};
+};
+
 // --- server to client ---
 
 struct Welcome {
@@ -398,7 +410,8 @@ struct Goodbye {
     static constexpr auto fields = std::tuple{field<1>("reason", &Goodbye::reason, {.most = 256})};
 };
 
-using ClientMessage = std::variant<Hello, MoveCommands, EditRequest, SetView, SectionAck, Leave, Say, Hotbar>;
+using ClientMessage =
+    std::variant<Hello, MoveCommands, EditRequest, SetView, SectionAck, Leave, Say, Hotbar, AskSections>;
 using ServerMessage =
     std::variant<Welcome, RegistryData, StateTexts, BiomeTexts, Sections, AirSections, SectionsGone, HeightsOfColumns,
                  BlockChanges, LightChanges, EditResult, BodyState, TimeOfDay, Notice, Goodbye>;

@@ -49,6 +49,7 @@ bool touches(const CellBounds& bounds, i32 dx, i32 dy, i32 dz) {
 
 void Replica::mark(ChunkPos at, u8 what) {
     dirty_[at] |= what;
+    if (what & (kBlocksChanged | kGone)) asks_.changed(at);
 }
 
 void Replica::mark_difference(ChunkPos at, const Chunk* before, const Chunk* now) {

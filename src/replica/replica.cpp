@@ -1,5 +1,6 @@
 #include "replica/replica.h"
 
+#include "base/clock.h"
 #include "net/registry_codec.h"
 
 namespace vitrail::replica {
@@ -59,6 +60,24 @@ std::vector<net::Notice> Replica::take_notices() {
 void Replica::set_view_distance(u32 chunks) {
     options_.view_distance = view_distance_ = chunks;
     send(net::Channel::control, net::SetView{chunks});
+}
+
+void Replica::ask_for_sections(const Gaze& gaze) {
+    const u64 now = now_ns();
+    if (!joined() || double(now - ask_ns_) * 1e-9 < double(options_.ask_seconds)) return;
+    ask_ns_ = now;
+    // The server takes a client that was silent for 2 seconds for one that does not ask.
+    const bool again = !asked_.empty() && now - asked_ns_ > 1'000'000'000;
+    if (!again && !asks_.stale(gaze)) return;
+    std::vector<ChunkPos> missing =
+        asks_.stale(gaze) ? asks_.missing(*dimension_, gaze, view_distance_, net::kMostSectionsAsked) : asked_;
+    if (!again && missing == asked_) return;
+    asked_ = std::move(missing);
+    asked_ns_ = now;
+    net::AskSections message{u32(dimension_->info().id), {}};
+    for (ChunkPos at : asked_)
+        message.at.push_back(net::to_wire(at));
+    send(net::Channel::control, message);
 }
 
 void Replica::say(const std::string& text) {

@@ -17,6 +17,7 @@
 
 #include "net/messages.h"
 #include "net/transport.h"
+#include "replica/section_asks.h"
 #include "rules/movement.h"
 #include "world/biome_table.h"
 #include "world/dimension.h"
@@ -36,6 +37,7 @@ struct ReplicaOptions {
     u32 view_distance = 12;      // chunks
     // Content known already (same machine, or kept from an earlier session); used where its hash equals the server's.
     std::shared_ptr<const BlockRegistry> registry;
+    float ask_seconds = 0.05f; // between two messages of ask_for_sections, at least
 };
 
 // What happened to a section; a new one has kBlocksChanged | kLightChanged. The border bits say that a neighbor (of 26)
@@ -82,6 +84,10 @@ public:
     // Each dirty section once, with all that happened to it since the last call.
     std::vector<DirtySection> take_dirty();
     bool has_section(ChunkPos at) const { return dimension_ && dimension_->find(at) != nullptr; }
+
+    // Asks the server for what this eye could see and is not here, what it looks at first. Call each frame; who never
+    // calls gets everything nearest first.
+    void ask_for_sections(const Gaze& gaze);
 
     // Runs as many steps of 1/60 s as have come due after `seconds` more (at most 15 a call), with this input each
     // (its number is not looked at; toggle_flying counts for the first).
@@ -169,6 +175,9 @@ private:
     std::unique_ptr<Dimension> dimension_; // null until Welcome
     ChunkPtr open_air_;                    // what every one of AirSections is
     std::unordered_map<ChunkPos, u8> dirty_;
+    SectionAsks asks_;
+    std::vector<ChunkPos> asked_;
+    u64 ask_ns_ = 0, asked_ns_ = 0; // when it was looked, and asked, last
 
     // Edits.
     std::deque<PendingEdit> pending_;

@@ -16,6 +16,8 @@ constexpr u32 kSectionsAMessage = 64; // well below the format's bound, so that 
 constexpr u32 kMessageBytesGoal = 128u << 10;
 constexpr std::size_t kCellsAMessage = 100000, kDeltasAMessage = 1024;
 constexpr u32 kWalkTicksLeast = 4; // between walks that only follow loading
+constexpr u64 kAskingTicks = 40;   // for so long a client that asked is one that asks
+constexpr u64 kUnaskedShare = 4;   // of the bytes on the way, what nobody asked for gets one in this many
 constexpr i32 kSkyMargin = 4;      // sections above and below the dimension that the walk may use
 constexpr u32 kParts = kChunkBlocks | kChunkLight | kChunkBiomes | kChunkRevision;
 constexpr u16 kOpenSky = 15; // Light bits: full sky, no block light
@@ -167,14 +169,46 @@ void update_interest(ServerWorld& world, Session& session) {
         reached.insert(reached.end(), more.begin(), more.end());
     }
     session.wanted.clear();
+    session.wanted_asked = 0, session.asked_changed = true;
     for (ChunkPos at : reached) {
         if (at.y < info.min_y >> 4 || at.y >= info.max_y >> 4 || session.held.contains(at)) continue;
         if (within(at, eye, radius + 1)) session.wanted.push_back(at);
     }
 }
 
+void take_asks(const ServerWorld& world, Session& session, const net::AskSections& asked) {
+    if (asked.dimension != u32(session.dimension())) return;
+    session.asked.clear();
+    for (const net::WireChunkPos& wire : asked.at) {
+        const ChunkPos at = net::from_wire(wire);
+        if (within(at, session.walked_from, i32(session.view_distance) + 2)) session.asked.push_back(at);
+    }
+    session.asked_changed = true;
+    session.asked_tick = world.tick;
+}
+
+// Those of the wanted that were asked for to the front, in the order asked.
+static void put_asked_first(Session& session) {
+    session.asked_changed = false;
+    session.wanted_asked = 0;
+    if (session.asked.empty()) return;
+    std::unordered_map<ChunkPos, u32> place;
+    for (ChunkPos at : session.asked)
+        place.try_emplace(at, u32(place.size()));
+    std::vector<ChunkPos> first;
+    std::deque<ChunkPos> rest;
+    for (ChunkPos at : session.wanted)
+        place.contains(at) ? first.push_back(at) : rest.push_back(at);
+    std::sort(first.begin(), first.end(), [&](ChunkPos a, ChunkPos b) { return place.at(a) < place.at(b); });
+    rest.insert(rest.begin(), first.begin(), first.end());
+    session.wanted = std::move(rest);
+    session.wanted_asked = first.size();
+}
+
 void send_sections(ServerWorld& world, Session& session) {
     if (session.wanted.empty()) return;
+    if (session.asked_changed) put_asked_first(session);
+    const bool asks = session.asked_tick != 0 && world.tick - session.asked_tick < kAskingTicks;
     ServerDimension& dimension = dimension_of(world, session);
     net::Sections sections{u32(session.dimension()), {}};
     net::AirSections air{u32(session.dimension()), {}};
@@ -190,11 +224,15 @@ void send_sections(ServerWorld& world, Session& session) {
     std::unordered_map<ColumnPos, bool> settled;
     tell_tables(world, session);
     while (!session.wanted.empty() && !session.gone) {
+        // What is asked for later must not stand in line behind what nobody asked for.
+        const u64 on_the_way_most =
+            world.options.bytes_in_flight_most / (asks && session.wanted_asked == 0 ? kUnaskedShare : 1);
         if (tick_bytes >= world.options.bytes_a_tick_most ||
-            session.bytes_sent - session.bytes_acknowledged >= world.options.bytes_in_flight_most)
+            session.bytes_sent - session.bytes_acknowledged >= on_the_way_most)
             break;
         const ChunkPos at = session.wanted.front();
         session.wanted.pop_front();
+        if (session.wanted_asked > 0) --session.wanted_asked;
         if (session.held.contains(at)) continue;
         const ColumnPos column = column_of(at);
         const auto [known, fresh] = settled.try_emplace(column, false);

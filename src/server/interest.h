@@ -10,7 +10,9 @@ namespace vitrail::server {
 // Finds the sections a session should hold (a walk over face connections from its eye and its feet) where it moved to
 // another section or the world opened, and lets go of those out of range.
 void update_interest(ServerWorld& world, Session& session);
-// Sends wanted sections, nearest first, within the bounds on bytes.
+// What the client would like to have first; what lies out of its range is left out.
+void take_asks(const ServerWorld& world, Session& session, const net::AskSections& asked);
+// Sends wanted sections, asked ones first, then nearest first, within the bounds on bytes.
 void send_sections(ServerWorld& world, Session& session);
 
 // Tells every session what these changes make of the sections it holds.

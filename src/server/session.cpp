@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMessagesATickMost = 512;
 constexpr std::size_t kRequestsATickMost = 64;
+constexpr u32 kAsksATickMost = 8;
 constexpr std::size_t kCommandsWaitingMost = 240;
 constexpr std::size_t kPlayersLeftMost = 1000;
 constexpr u64 kHelloTicksMost = 200; // who does not greet in 10 seconds is dropped
@@ -118,6 +119,10 @@ void hear(ServerWorld&, Session& session, net::Hotbar& hotbar) {
     session.player_dirty = true;
 }
 
+void hear(ServerWorld& world, Session& session, net::AskSections& asked) {
+    if (++session.asks_heard <= kAsksATickMost) take_asks(world, session, asked);
+}
+
 } // namespace
 
 void send(Session& session, net::Channel channel, Bytes message) {
@@ -138,6 +143,7 @@ void hear_sessions(ServerWorld& world) {
     for (auto& session : world.sessions) {
         if (session->gone) continue;
         const bool open = session->transport->open();
+        session->asks_heard = 0;
         session->transport->poll(
             [&](net::Channel, ByteView bytes) {
                 if (session->gone) return;

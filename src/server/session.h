@@ -59,7 +59,12 @@ struct Session {
     u32 states_told = 2, biomes_told = 1;
     std::unordered_map<ChunkPos, HeldSection> held;
     std::unordered_set<ColumnPos> heights_told;
-    std::deque<ChunkPos> wanted; // reached and not held, nearest first
+    std::deque<ChunkPos> wanted;       // reached and not held: `wanted_asked` of them as asked, the others nearest first
+    std::size_t wanted_asked = 0;
+    std::vector<ChunkPos> asked;       // by the client's last message
+    bool asked_changed = false;        // or what is wanted has: to be put in order
+    u64 asked_tick = 0;                // of that message; 0: it never asked
+    u32 asks_heard = 0;                // in this tick
     ChunkPos walked_from{}, walked_feet{};
     u64 walked_opened = ~u64(0);
     u64 walked_tick = 0;

@@ -40,10 +40,10 @@ ChunkPos SightBox::at(std::size_t i) const {
     return {min.x + i32(x), min.y + i32(rest / std::size_t(size.z)), min.z + i32(rest % std::size_t(size.z))};
 }
 
-void SightFlood::reset(const SightBox& box) {
+void SightFlood::reset(const SightBox& box, const SectionSight& every) {
     VX_ASSERT(box.size.x >= 0 && box.size.y >= 0 && box.size.z >= 0 && box.count() <= kSectionsMost);
     box_ = box;
-    sections_.assign(box.count(), SectionSight{});
+    sections_.assign(box.count(), every);
     reached_.assign(box.count(), 0);
 }
 

@@ -38,8 +38,8 @@ class SightFlood {
 public:
     static constexpr std::size_t kSectionsMost = 1 << 22;
 
-    // Every section of the box is open until `set` says otherwise. At most kSectionsMost sections.
-    void reset(const SightBox& box);
+    // Every section of the box is `every` until `set` says otherwise. At most kSectionsMost sections.
+    void reset(const SightBox& box, const SectionSight& every = {});
     // Without connections what enters it ends there. Sections outside the box are left out.
     void set(ChunkPos at, const SectionSight& section);
 

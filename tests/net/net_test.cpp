@@ -94,6 +94,10 @@ std::vector<ClientMessage> client_messages(Rng& rng) {
     all.emplace_back(Leave{});
     all.emplace_back(Say{random_text(rng, 200)});
     all.emplace_back(Hotbar{{"x", random_text(rng, 20)}, rng.below(9)});
+    AskSections asked{rng.below(3), {}};
+    for (u32 i = rng.below(9); i > 0; --i)
+        asked.at.push_back({i32(rng.next()), i32(rng.next()), i32(rng.next())});
+    all.emplace_back(std::move(asked));
     return all;
 }
 
@@ -145,6 +149,11 @@ TEST(Messages, BoundsAreChecked) {
     EXPECT_FALSE(decode_client_message(encode_message(Hello{1, std::string(33, 'a'), 8, 0})));
     EXPECT_FALSE(decode_client_message(encode_message(SetView{33})));
     EXPECT_FALSE(decode_client_message(encode_message(SetView{0})));
+    AskSections asked;
+    asked.at.resize(kMostSectionsAsked);
+    EXPECT_TRUE(decode_client_message(encode_message(asked)));
+    asked.at.resize(kMostSectionsAsked + 1);
+    EXPECT_FALSE(decode_client_message(encode_message(asked)));
     MoveCommands many;
     many.commands.resize(kMostCommandsABatch + 1);
     EXPECT_FALSE(decode_client_message(encode_message(many)));

@@ -70,6 +70,7 @@ public:
         server->connect(std::move(far_end));
         replica::ReplicaOptions options;
         options.name = name, options.view_distance = view_distance;
+        options.ask_seconds = 0; // ticks here take no time
         if (know_content) options.registry = base_content().registry;
         clients.push_back(std::make_unique<replica::Replica>(std::move(near_end), options));
         tick();
