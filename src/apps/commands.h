@@ -88,6 +88,7 @@ struct BenchOptions {
 Result<> run_bench(const BenchOptions& options);
 
 Result<> run_doctor();
+Result<> run_effects(); // prints the table of effects
 
 // --- shared by the commands ---
 

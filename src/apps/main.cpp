@@ -173,6 +173,7 @@ int main(int argc, char** argv) {
         c->add_flag("--list", bench.list, "list the names");
         commands.push_back({c, [&] { return run_bench(bench); }});
     }
+    commands.push_back({app.add_subcommand("effects", "List the effects, their ranges and presets"), [] { return run_effects(); }});
     commands.push_back({app.add_subcommand("doctor", "Say what this machine offers"), [] { return run_doctor(); }});
 
     for (const Command& command : commands) refuse_empty_texts(*command.app);

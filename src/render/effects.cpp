@@ -158,6 +158,17 @@ std::string effect_text(const Effects& effects, const EffectOption& option) {
     return option.choices[std::size_t(std::clamp<i32>(value, 0, i32(option.choices.size()) - 1))];
 }
 
+std::string effects_table() {
+    std::string text = "| effect | what it does | values | off | low | medium | high | ultra |\n|---|---|---|---|---|---|---|---|\n";
+    for (const EffectOption& option : kOptions) {
+        text += fmt::format("| `{}` | {}: {} | {} |", option.key, option.label, option.help, allowed(option));
+        for (u32 i = 0; i < u32(Preset::count); ++i)
+            text += fmt::format(" {} |", effect_text(preset_effects(Preset(i)), option));
+        text += "\n";
+    }
+    return text;
+}
+
 Effects sane(Effects effects) {
     const Effects defaults = preset_effects(Preset::high);
     for (const EffectOption& option : kOptions) {

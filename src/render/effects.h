@@ -112,6 +112,8 @@ std::optional<Preset> preset_of(const Effects& effects);
 // allowed).
 Result<> set_effect(Effects& effects, std::string_view key, std::string_view value);
 std::string effect_text(const Effects& effects, const EffectOption& option); // as set_effect reads it
+// The table of all options as Markdown (docs/effects.md).
+std::string effects_table();
 // Every value held inside its range; what needs something that is off goes off with it.
 Effects sane(Effects effects);
 
