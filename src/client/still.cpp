@@ -103,8 +103,7 @@ Result<render::Image> Still::draw_settled(const CameraPose& pose, u32 width, u32
 }
 
 Result<render::Image> Still::draw(const CameraPose& pose, u32 width, u32 height, float time) {
-    VX_TRY(draw_only(pose, width, height, time));
-    return renderer_->read_pixels();
+    return draw_settled(pose, width, height, time, render::settling_frames(renderer_->effects()));
 }
 
 } // namespace vitrail::client

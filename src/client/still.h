@@ -34,7 +34,8 @@ public:
     // Opens the world and waits until everything the eye could see is meshed and on the GPU. Errors: no OpenGL, the world's, limit.
     static Result<std::unique_ptr<Still>> open(const StillOptions& options, const Content& content);
     ~Still();
-    // time: 0..24000. The pose may turn and move within the view distance.
+    // time: 0..24000. The pose may turn and move within the view distance. As many frames as the effects need to settle
+    // (render::settling_frames).
     Result<render::Image> draw(const CameraPose& pose, u32 width, u32 height, float time);
     // As if the eye had been there for a while: earlier frames are forgotten, and what builds up over frames (exposure,
     // antialiasing, answers to occlusion queries) has `frames` of them at one moment of animation.

@@ -184,4 +184,8 @@ Effects sane(Effects effects) {
     return effects;
 }
 
+u32 settling_frames(const Effects& effects) {
+    return Antialias(effects.antialias) == Antialias::taa ? 16 : 1;
+}
+
 } // namespace vitrail::render

@@ -114,6 +114,8 @@ Result<> set_effect(Effects& effects, std::string_view key, std::string_view val
 std::string effect_text(const Effects& effects, const EffectOption& option); // as set_effect reads it
 // The table of all options as Markdown (docs/effects.md).
 std::string effects_table();
+// Frames of one moment after which a picture is as good as it gets: 1 where nothing builds up from frame to frame.
+u32 settling_frames(const Effects& effects);
 // Every value held inside its range; what needs something that is off goes off with it.
 Effects sane(Effects effects);
 

@@ -6,8 +6,8 @@
 #include "render/culling.h"
 #include "render/draw_list.h"
 #include "render/effects.h"
-#include "render/frame_uniforms.h"
 #include "render/frame_stats.h"
+#include "render/frame_uniforms.h"
 #include "render/passes/terrain/terrain_draw.h"
 #include "render/section_store.h"
 #include "render/texture_set.h"
@@ -54,19 +54,20 @@ struct FrameContext {
     const Effects* effects = nullptr;
     const gfx::ContextInfo* context = nullptr;
     FrameUniforms uniforms;
-    Vec2 jitter{};               // of this frame, in pixels -0.5..0.5, set by begin()
-    u64 number = 0;              // frames drawn before
-    float seconds_since = 0;     // the last frame, 0..1 (frame.seconds)
-    bool continues = false;      // the last frame showed the same views from nearly the same place, at the same size
+    Vec2 jitter{};           // of this frame, in pixels -0.5..0.5, set by begin()
+    u64 number = 0;          // frames drawn before
+    float seconds_since = 0; // the last frame, 0..1 (frame.seconds)
+    bool continues = false;  // the last frame showed the same views from nearly the same place, at the same size
+    bool exact = false;      // a test's background is on: the view stays where it is, pixels what they are
     bool stencil = false;
     std::vector<ViewDraws> views; // by view
     SectionStore* sections = nullptr;
     const TextureSet* textures = nullptr;
     gfx::UploadRing* ring = nullptr;
-    TerrainInputs terrain;       // what all draws of terrain share; list and view are missing
-    u32 plain_array = 0;         // vertex array without attributes, for screen passes
-    u32 noise = 0;               // texture
-    u32 target_framebuffer = 0;  // "screen"
+    TerrainInputs terrain;      // what all draws of terrain share; list and view are missing
+    u32 plain_array = 0;        // vertex array without attributes, for screen passes
+    u32 noise = 0;              // texture
+    u32 target_framebuffer = 0; // "screen"
     FrameStats* stats = nullptr;
 };
 

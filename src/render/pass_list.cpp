@@ -2,6 +2,7 @@
 
 #include "render/passes/bloom/bloom_pass.h"
 #include "render/passes/exposure/exposure_pass.h"
+#include "render/passes/fxaa/fxaa_pass.h"
 #include "render/passes/lighting/lighting_pass.h"
 #include "render/passes/outline/outline_pass.h"
 #include "render/passes/scene_copy/scene_copy_pass.h"
@@ -9,6 +10,7 @@
 #include "render/passes/sky/sky_pass.h"
 #include "render/passes/ssao/ssao_pass.h"
 #include "render/passes/ssr/reflections_pass.h"
+#include "render/passes/taa/taa_pass.h"
 #include "render/passes/terrain/terrain_pass.h"
 #include "render/passes/tonemap/tonemap_pass.h"
 #include "render/passes/water/water_pass.h"
@@ -29,9 +31,11 @@ std::vector<std::unique_ptr<RenderPass>> make_passes() {
     passes.push_back(std::make_unique<WaterPass>());
     passes.push_back(std::make_unique<OutlinePass>());
     // The eye.
+    passes.push_back(std::make_unique<TaaPass>());
     passes.push_back(std::make_unique<ExposurePass>());
     passes.push_back(std::make_unique<BloomPass>());
     passes.push_back(std::make_unique<TonemapPass>());
+    passes.push_back(std::make_unique<FxaaPass>());
     return passes;
 }
 

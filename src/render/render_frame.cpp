@@ -123,6 +123,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     frame.jitter = {};
     frame.continues = same_place(view, impl.before);
     frame.seconds_since = frame.continues ? std::clamp(view.seconds - impl.before_seconds, 0.0f, 1.0f) : 0.0f;
+    frame.exact = impl.background_on;
     frame.stencil = stencil;
     frame.sections = &impl.sections;
     frame.textures = &impl.textures;

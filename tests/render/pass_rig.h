@@ -55,17 +55,19 @@ public:
         frame_.continues = false;
     }
 
-    // One frame: `color` as the picture so far. Depth stays as last set. Returns nothing: read what you want.
+    using Source = std::function<Picture(const FrameUniforms& uniforms)>;
+
     void draw(const Picture& color, const scene::FrameView& frame, float seconds_since) {
-        ASSERT_EQ(color.width, frame.width);
-        ASSERT_EQ(color.height, frame.height);
+        draw([&](const FrameUniforms&) { return color; }, frame, seconds_since);
+    }
+    // One frame: `source` makes the picture so far, with the view as the passes shifted it. Depth stays as last set.
+    void draw(const Source& source, const scene::FrameView& frame, float seconds_since) {
         ASSERT_TRUE(graph_.resize(frame.width, frame.height));
         if (screen_.width != frame.width || screen_.height != frame.height) {
             screen_ = gfx::make_texture_2d(GL_RGBA8, frame.width, frame.height);
             const gfx::Texture* attached[] = {&screen_};
             screen_framebuffer_ = gfx::make_framebuffer(attached, nullptr);
         }
-        color_ = &color;
         frame_.frame = &frame;
         frame_.effects = &effects_;
         frame_.context = &context_;
@@ -79,6 +81,10 @@ public:
             make_frame_uniforms(frame, frame_.jitter, frame_.continues ? before_ : PreviousViews{}, false, {});
         for (const auto& pass : passes_)
             pass->prepare(frame_);
+        const Picture color = source(frame_.uniforms);
+        ASSERT_EQ(color.width, frame.width);
+        ASSERT_EQ(color.height, frame.height);
+        color_ = &color;
         uniforms_ = gfx::make_buffer(sizeof frame_.uniforms, 0, &frame_.uniforms);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
         glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -94,14 +100,6 @@ public:
         return read_texture(t);
     }
     Picture screen() const { return read_texture(screen_); }
-    Vec2 jitter() const { return frame_.jitter; } // pixels, of the frame drawn last
-    // What the next frame is drawn with; by default the one that the last used. Called before the pictures are made.
-    Vec2 next_jitter(const scene::FrameView& frame) {
-        frame_.frame = &frame, frame_.effects = &effects_, frame_.jitter = {};
-        for (const auto& pass : passes_)
-            pass->begin(frame_);
-        return frame_.jitter;
-    }
     void forget() {
         before_ = {};
         frame_.continues = false;

@@ -29,7 +29,7 @@ struct DeclareContext {
     // The target that holds the picture in linear HDR after the passes declared so far; a pass that makes a new one
     // (antialiasing in time) names it here.
     std::string color = "color";
-    // Where the tone mapping writes: "screen", or a target that a later pass reads.
+    // The picture as the screen shows it, after the passes declared so far: "screen", or, from tone mapping to fxaa, a target.
     std::string display = "screen";
 };
 

@@ -17,6 +17,10 @@ Result<> TonemapPass::build(const BuildContext& context) {
 }
 
 void TonemapPass::declare(DeclareContext& c) {
+    if (Antialias(c.effects.antialias) == Antialias::fxaa) {
+        c.graph.add_target({.name = "display", .format = GL_RGBA8, .linear = true});
+        c.display = "display"; // fxaa brings it to the screen
+    }
     std::vector<std::string> reads{c.color};
     if (c.effects.exposure.automatic) reads.push_back("exposure");
     if (c.effects.bloom.on) reads.push_back("bloom1");
