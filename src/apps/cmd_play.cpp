@@ -37,6 +37,7 @@ Result<> run_play(const PlayOptions& options) {
     game.local.server.device = options.device;
     game.local.replica.name = options.name;
     game.view_distance = options.view_distance;
+    game.packs = options.packs;
     game.shader_folder = options.effects.shader_folder;
     VX_TRY(effects_of(options.effects, {})); // wrong words are told before a window opens
     game.change_effects = [arguments = options.effects](const render::Effects& kept) { return *effects_of(arguments, kept); };

@@ -46,6 +46,7 @@ Result<> run_render(const RenderOptions& wanted) {
     still_options.view_distance = u32(options.view_distance);
     VX_TRY_ASSIGN(still_options.effects, effects_of(options.effects, still_options.effects));
     still_options.shader_folder = options.effects.shader_folder;
+    still_options.packs = options.packs;
     bool from_spawn = false;
     if (options.at.empty()) {
         if (!options.seed) return fail(ErrorCode::invalid_argument, "render --world wants --at X,Y,Z and --look YAW,PITCH");
@@ -80,7 +81,7 @@ Result<> run_render(const RenderOptions& wanted) {
     if (options.stats_file.empty()) return {};
     const auto& frame = still->renderer().stats();
     const auto info = gfx::context_info();
-    const nlohmann::json stats = {{"seconds", {{"open", still->times().open_s}, {"world", still->times().world_s},
+    nlohmann::json stats = {{"seconds", {{"open", still->times().open_s}, {"world", still->times().world_s},
                                                {"mesh", still->times().mesh_s}, {"draw", draw_s}}},
                                   {"frames", 1},
                                   {"rays", 0},
@@ -93,6 +94,13 @@ Result<> run_render(const RenderOptions& wanted) {
                                   {"missing_textures", still->renderer().missing_textures()},
                                   {"peak_memory_bytes", peak_memory_bytes()},
                                   {"device", info ? info->renderer : "unknown"}};
+    if (const scene::PackLooks* packs = still->packs()) {
+        const auto& c = packs->counts();
+        stats["packs"] = {{"count", c.packs}, {"textures_replaced", c.replaced_textures}, {"textures_added", c.own_textures},
+                          {"textures_made", c.made_textures}, {"blockstates", c.blockstates}, {"models", c.models},
+                          {"models_unresolved", c.unresolved_models}, {"problems", packs->report().problems},
+                          {"missing", packs->missing()}};
+    }
     return write_file(options.stats_file, stats.dump(1) + "\n");
 }
 

@@ -61,6 +61,7 @@ struct RenderOptions {
     float fov_deg = 70, time = 6000;
     int view_distance = 12, spp = 1;
     EffectArguments effects;
+    std::vector<std::string> packs;
     bool demo = false;
 };
 Result<> run_render(const RenderOptions& options);
@@ -71,6 +72,7 @@ struct PlayOptions {
     int view_distance = 0; // 0: as the settings say
     std::string device = "auto";
     EffectArguments effects; // over the settings
+    std::vector<std::string> packs; // instead of the settings'
 };
 Result<> run_play(const PlayOptions& options);
 

@@ -134,6 +134,7 @@ int main(int argc, char** argv) {
         c->add_option("--spp", render.spp, "samples a pixel (trace)")->check(CLI::Range(1, 1'000'000));
         c->add_option("--device", render.device, "cpu or cuda (trace)");
         add_effect_arguments(*c, render.effects);
+        c->add_option("--pack", render.packs, "resource pack, zip or folder; several: the later covers the earlier")->allow_extra_args(false);
         c->add_option("--view-distance", render.view_distance, "chunks")->check(CLI::Range(1, 32));
         c->add_option("--output,-o", render.output, "PNG file")->required();
         c->add_option("--stats", render.stats_file, "write figures as JSON");
@@ -152,6 +153,7 @@ int main(int argc, char** argv) {
         c->add_option("--view-distance", play.view_distance, "chunks")->check(CLI::Range(1, 32));
         c->add_option("--device", play.device, "what makes the land: cpu, cuda or auto");
         add_effect_arguments(*c, play.effects);
+        c->add_option("--pack", play.packs, "resource pack, zip or folder; several: the later covers the earlier")->allow_extra_args(false);
         commands.push_back({c, [&] { return run_play(play); }});
     }
     ServeOptions serve;

@@ -25,6 +25,7 @@ struct GameOptions {
     std::filesystem::path screenshot_folder; // F2
     u32 width = 1280, height = 720;
     i32 view_distance = 0;                   // 0: as the settings say
+    std::vector<std::string> packs;          // resource packs; none: as the settings say
     std::string shader_folder;               // see render::RendererOptions
     // What the command line makes of the effects kept; null: nothing.
     std::function<render::Effects(const render::Effects&)> change_effects;

@@ -21,10 +21,28 @@ double feed_budget_ms(double frame_seconds) {
     return std::clamp(frame_seconds * 1000 * kBudgetShare, kBudgetMs, kBudgetMsMost);
 }
 
-SectionFeeder::SectionFeeder(render::Renderer& renderer, ThreadPool& pool)
-    : renderer_(renderer), pool_(pool), in_flight_most_(kInFlightLeast) {}
+SectionFeeder::SectionFeeder(render::Renderer& renderer, ThreadPool& pool, std::shared_ptr<const scene::PackLooks> packs)
+    : renderer_(renderer), pool_(pool), packs_(std::move(packs)), models_(std::make_unique<scene::BlockModels>(packs_)),
+      in_flight_most_(kInFlightLeast) {}
 
 SectionFeeder::~SectionFeeder() { pool_.wait_idle(); }
+
+void SectionFeeder::set_packs(std::shared_ptr<const scene::PackLooks> packs) {
+    pool_.wait_idle(); // jobs read the old models
+    {
+        std::lock_guard lock(shared_->mutex);
+        shared_->ready.clear();
+    }
+    taken_.clear();
+    packs_ = std::move(packs);
+    models_ = std::make_unique<scene::BlockModels>(packs_);
+    renderer_.clear_sections(); // their quads count into the old table
+    renderer_.forget_models();
+    tints_.clear();
+    const u64 now = now_ns();
+    in_flight_ = waiting_ = 0;
+    for (auto& [at, section] : sections_) section = {.mesh = true, .light = true, .dirty_since_ns = now - kQuietNs}, ++waiting_;
+}
 
 void SectionFeeder::mark(ChunkPos at, bool mesh, u64 now) {
     const auto it = sections_.find(at);
@@ -71,14 +89,16 @@ void SectionFeeder::update(replica::Replica& replica, BlockPos eye, double budge
         tints_.clear();
         for (const std::string& name : replica.biomes().names()) {
             const BiomeDef& biome = replica.registry()->biome_named(name);
-            tints_.push_back({biome.grass, biome.foliage, biome.water});
+            render::BiomeTint tint{biome.grass, biome.foliage, biome.water};
+            if (packs_) tint = {packs_->grass(biome).value_or(tint.grass), packs_->foliage(biome).value_or(tint.foliage), tint.water};
+            tints_.push_back(tint);
         }
     }
-    models_.ensure(*replica.states());
+    models_->ensure(*replica.states());
     take_answers();
     if (waiting_ > 0) start_jobs(replica, eye, start, budget_ms / 3);
 
-    renderer_.sync_models(models_); // meshing may have interned liquid quads
+    renderer_.sync_models(*models_); // meshing may have interned liquid quads
     std::size_t done = 0;
     while (done < taken_.size() && (done == 0 || seconds_since(start) * 1e3 < budget_ms)) upload(taken_[done++]);
     taken_.erase(taken_.begin(), taken_.begin() + std::ptrdiff_t(done));
@@ -132,7 +152,7 @@ void SectionFeeder::start_jobs(replica::Replica& replica, BlockPos eye, u64 now,
         if (!chunk) continue;
         render::MeshInput alone;
         alone.chunks[render::MeshInput::kCenter] = chunk.get();
-        alone.models = &models_;
+        alone.models = models_.get();
         alone.absent_is_opaque = false; // so that only air draws nothing
         if (mesh && chunk->blocks.uniform() && render::draws_nothing(alone)) {
             render::mesh_section(alone, no_mesh_, scratch_);
@@ -163,10 +183,11 @@ void SectionFeeder::submit(const replica::Replica& replica, ChunkPos at, u64 job
         for (i32 dx = -1; dx <= 1; ++dx)
             for (i32 dz = -1; dz <= 1; ++dz) around[render::MeshInput::index(dx, 1, dz)] = kOpenAir;
     pool_.submit(
-        [at, job, mesh, around = std::move(around), models = &models_, tints = tints_, shared = shared_] {
+        [at, job, mesh, around = std::move(around), models = models_.get(), tints = tints_, shared = shared_] {
             static thread_local render::MeshScratch scratch;
             render::MeshInput input;
             for (std::size_t k = 0; k < 27; ++k) input.chunks[k] = around[k].get();
+            input.at = at;
             input.models = models;
             Answer answer;
             answer.at = at;

@@ -15,6 +15,7 @@
 #include "render/renderer.h"
 #include "replica/replica.h"
 #include "scene/block_model.h"
+#include "scene/pack_looks.h"
 
 #include <memory>
 #include <mutex>
@@ -36,7 +37,8 @@ struct FeederStats {
 
 class SectionFeeder {
 public:
-    SectionFeeder(render::Renderer& renderer, ThreadPool& pool);
+    // packs: what blocks look like, of the registry that the replica has, or null.
+    SectionFeeder(render::Renderer& renderer, ThreadPool& pool, std::shared_ptr<const scene::PackLooks> packs = nullptr);
     ~SectionFeeder(); // waits for its jobs
     SectionFeeder(const SectionFeeder&) = delete;
     SectionFeeder& operator=(const SectionFeeder&) = delete;
@@ -44,11 +46,13 @@ public:
     // Takes the replica's dirty sections, starts jobs nearest to `eye` first for at most a third of budget_ms, uploads
     // what is ready until budget_ms are over (but at least one section, so that it always goes on).
     void update(replica::Replica& replica, BlockPos eye, double budget_ms);
+    // Other packs while playing: waits for the jobs that run, then meshes everything anew. Load the renderer's textures before.
+    void set_packs(std::shared_ptr<const scene::PackLooks> packs);
     // Nothing waits, runs or lies ready.
     bool settled() const;
     FeederStats stats() const;
-    const scene::BlockModels& models() const { return models_; }
-    scene::BlockModels& models() { return models_; }
+    const scene::BlockModels& models() const { return *models_; }
+    scene::BlockModels& models() { return *models_; }
 
 private:
     struct Section {
@@ -81,7 +85,8 @@ private:
 
     render::Renderer& renderer_;
     ThreadPool& pool_;
-    scene::BlockModels models_;
+    std::shared_ptr<const scene::PackLooks> packs_;
+    std::unique_ptr<scene::BlockModels> models_;
     std::vector<render::BiomeTint> tints_; // by BiomeId
     std::unordered_map<ChunkPos, Section> sections_;
     std::vector<ChunkPos> waiting_at_; // all that wait; and some that went or were begun since it was last looked through

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
+#include <sstream>
 #include <toml++/toml.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@ Settings sane(Settings s) {
     s.gamma = hold(s.gamma, 0.5f, 2, 1);
     s.ui_scale = hold(s.ui_scale, 0.5f, 3, 1);
     s.frame_limit = std::clamp(s.frame_limit, 0, 1000);
+    s.packs.resize(std::min<std::size_t>(s.packs.size(), 64));
     s.effects = render::sane(s.effects);
     return s;
 }
@@ -42,6 +44,21 @@ static void each_setting(Settings& s, Visit&& visit) {
     visit("gamma", s.gamma);
     visit("ui_scale", s.ui_scale);
     visit("frame_limit", s.frame_limit);
+}
+
+static void read_packs(const toml::table& table, std::vector<std::string>& packs) {
+    const toml::array* list = table["packs"].as_array();
+    if (!list) return;
+    for (const toml::node& node : *list)
+        if (const auto path = node.value_exact<std::string>(); path && !path->empty()) packs.push_back(*path);
+}
+
+static std::string packs_text(const std::vector<std::string>& packs) {
+    toml::array list;
+    for (const std::string& path : packs) list.push_back(path);
+    std::ostringstream text; // the library quotes what a path may hold
+    text << "packs = " << list << "\n";
+    return text.str();
 }
 
 // quality = "PRESET" and a table [effects] of what the player changed in it.
@@ -99,6 +116,7 @@ Result<Settings> load_settings(const fs::path& path) {
         using T = std::remove_reference_t<decltype(value)>;
         if (const auto found = table[key].value<T>()) value = *found;
     });
+    read_packs(table, settings.packs);
     read_effects(table, settings.effects);
     return sane(settings);
 }
@@ -112,6 +130,7 @@ Result<> save_settings(const fs::path& path, const Settings& settings) {
         if constexpr (std::is_same_v<T, float>) text += fmt::format("{} = {:.4f}\n", key, value);
         else text += fmt::format("{} = {}\n", key, value);
     });
+    text += packs_text(copy.packs); // before the table: keys after it would be its own
     text += effects_text(copy.effects);
     std::error_code error;
     fs::create_directories(path.parent_path(), error);

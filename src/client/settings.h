@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace vitrail::client {
 
@@ -21,6 +22,7 @@ struct Settings {
     float gamma = 1;     // exposure, 0.5..2
     float ui_scale = 1;  // 0.5..3
     i32 frame_limit = 0; // frames a second, 0 none
+    std::vector<std::string> packs; // paths of resource packs, the later over the earlier; at most 64
     bool operator==(const Settings&) const = default;
 };
 

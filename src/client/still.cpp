@@ -1,6 +1,7 @@
 #include "client/still.h"
 
 #include "base/clock.h"
+#include "client/packs.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -24,6 +25,7 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Co
     const u64 start = now_ns();
     std::unique_ptr<Still> still(new Still);
     still->view_distance_ = options.view_distance;
+    VX_TRY_ASSIGN(still->packs_, open_packs(options.packs, *content.registry));
     VX_TRY_ASSIGN(still->context_, platform::HeadlessContext::create());
     LocalGameOptions local;
     if (options.world.empty()) {
@@ -46,9 +48,9 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Co
     VX_TRY_ASSIGN(still->game_, LocalGame::open(local, content));
     VX_TRY(still->game_->wait_joined(60));
     VX_TRY_ASSIGN(still->renderer_, render::Renderer::create({.effects = options.effects, .shader_folder = options.shader_folder}));
-    VX_TRY(still->renderer_->load_textures(*content.registry));
+    VX_TRY(still->renderer_->load_textures(*content.registry, still->packs_.get()));
     still->pool_ = std::make_unique<ThreadPool>(default_worker_count());
-    still->feeder_ = std::make_unique<SectionFeeder>(*still->renderer_, *still->pool_);
+    still->feeder_ = std::make_unique<SectionFeeder>(*still->renderer_, *still->pool_, still->packs_);
     still->times_.open_s = seconds_since(start);
     VX_TRY(still->wait_complete(options));
     return still;

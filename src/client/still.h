@@ -10,6 +10,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace vitrail::client {
 
@@ -21,6 +22,7 @@ struct StillOptions {
     u32 view_distance = 12;  // chunks
     render::Effects effects = render::preset_effects(render::Preset::high);
     std::string shader_folder; // see render::RendererOptions
+    std::vector<std::string> packs; // resource packs, the later over the earlier
     double seconds_most = 600; // for the world to arrive
     const std::atomic<bool>* stop = nullptr; // where it turns true, opening ends with an error
 };
@@ -44,6 +46,8 @@ public:
     Result<> draw_only(const CameraPose& pose, u32 width, u32 height, float time);
 
     render::Renderer& renderer() { return *renderer_; }
+    const scene::PackLooks* packs() const { return packs_.get(); } // null without
+    SectionFeeder& feeder() { return *feeder_; }
     replica::Replica& replica() { return game_->replica(); }
     server::Server& server() { return game_->server(); }
     const StillTimes& times() const { return times_; }
@@ -57,6 +61,7 @@ private:
     std::unique_ptr<ThreadPool> pool_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<SectionFeeder> feeder_;
+    std::shared_ptr<const scene::PackLooks> packs_;
     u32 view_distance_ = 12;
     StillTimes times_;
 };

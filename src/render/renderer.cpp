@@ -64,14 +64,21 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     return made;
 }
 
-Result<> Renderer::load_textures(const BlockRegistry& registry) {
-    return impl_->textures.load(registry, impl_->effects.surface.smooth, impl_->context.anisotropy_max);
+Result<> Renderer::load_textures(const BlockRegistry& registry, const scene::PackLooks* packs) {
+    TextureLimits limits;
+    if (impl_->context.software) limits.bytes_most /= 3; // it is the machine's own memory
+    return impl_->textures.load(registry, packs, limits, impl_->effects.surface.smooth, impl_->context.anisotropy_max);
 }
 u32 Renderer::missing_textures() const {
     return u32(impl_->textures.missing().size());
 }
 const std::vector<std::string>& Renderer::missing_texture_names() const {
     return impl_->textures.missing();
+}
+
+void Renderer::forget_models() {
+    impl_->models_held = 0;
+    impl_->fixed_tints_held = 0;
 }
 
 void Renderer::sync_models(const scene::BlockModels& models) {

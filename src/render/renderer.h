@@ -27,6 +27,10 @@
 #include <string>
 #include <vector>
 
+namespace vitrail::scene {
+class PackLooks;
+}
+
 namespace vitrail::render {
 
 struct RendererOptions {
@@ -57,14 +61,17 @@ public:
     Renderer& operator=(const Renderer&) = delete;
 
     // Reads NAME.png (albedo), NAME_n, NAME_r, NAME_e of every texture below the registry's content roots into arrays
-    // of 32x32 layers; an image taller than wide is an animation. What is missing gets the plain pattern and is
-    // counted. Errors: limit (more layers than the driver has). Unreadable files count as missing.
-    Result<> load_textures(const BlockRegistry& registry);
+    // of 32x32 layers; an image taller than wide is an animation. Pictures of packs (of this registry; null: none) take
+    // their place or follow them, and layers grow to their size. What is missing gets the plain pattern and is counted.
+    // Errors: limit (more layers than the driver has). Unreadable files count as missing.
+    Result<> load_textures(const BlockRegistry& registry, const scene::PackLooks* packs = nullptr);
     u32 missing_textures() const;
     const std::vector<std::string>& missing_texture_names() const;
 
     // Uploads model quads and fixed tints added since the last call.
     void sync_models(const scene::BlockModels& models);
+    // Before sync_models with another table; sections of the old one must not be drawn any more.
+    void forget_models();
 
     // Replaces what the section draws; an empty mesh still counts for cave culling (its connections).
     void set_section(ChunkPos at, DimensionId dimension, const SectionMesh& mesh);

@@ -1,10 +1,11 @@
 #include "render/texture_set.h"
 
-#include "base/hash.h"
+#include "base/log.h"
+#include "scene/pack_looks.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
 #include <epoxy/gl.h>
 #include <filesystem>
 #include <fmt/format.h>
@@ -13,49 +14,16 @@ namespace vitrail::render {
 
 namespace {
 
-constexpr u32 kSize = TextureSet::kSize, kLevels = TextureSet::kLevels;
-
-float linear_of(u8 v) {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> t{};
-        for (int i = 0; i < 256; ++i) {
-            const float c = float(i) / 255;
-            t[std::size_t(i)] = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-        }
-        return t;
-    }();
-    return table[v];
-}
-
-u8 srgb_of(float v) {
-    const float c = v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
-    return u8(std::clamp(c * 255 + 0.5f, 0.0f, 255.0f));
-}
-
-// A frame of a strip: width x width pixels, stretched to a layer by nearest pixels.
-std::array<u8, 4> texel(const Image& image, u32 frame, u32 x, u32 y) {
-    const u32 side = std::min(image.width, image.height);
-    const u32 sx = x * image.width / kSize, sy = std::min(frame * side + y * side / kSize, image.height - 1);
-    const u8* p = image.at(sx, sy);
-    return {p[0], p[1], p[2], image.channels == 4 ? p[3] : u8(255)};
-}
-
-u32 frames_of(const Image& image) {
-    return image.height > image.width ? image.height / image.width : 1;
-}
-
-float coverage(const std::vector<u8>& level) {
-    u32 passed = 0;
-    for (std::size_t i = 3; i < level.size(); i += 4)
-        passed += level[i] >= 128;
-    return float(passed) / float(level.size() / 4);
-}
+constexpr u32 kContentSize = TextureSet::kSize;
+constexpr u32 kContentFramesMost = 64;
+constexpr u64 kFrameBytesMost = u64(256) << 20; // of animations, in memory
+constexpr float kTicksASecond = 20;
 
 // A calm woven pattern in light gray: what is missing should not shout.
 Image plain_pattern() {
-    Image image{kSize, kSize, 4, std::vector<u8>(kSize * kSize * 4)};
-    for (u32 y = 0; y < kSize; ++y)
-        for (u32 x = 0; x < kSize; ++x) {
+    Image image{kContentSize, kContentSize, 4, std::vector<u8>(kContentSize * kContentSize * 4)};
+    for (u32 y = 0; y < kContentSize; ++y)
+        for (u32 x = 0; x < kContentSize; ++x) {
             const bool across = ((x / 4) + (y / 4)) % 2 == 0;
             const u32 ridge = across ? y % 4 : x % 4;
             const u8 v = u8(158 + (ridge == 0 ? -16 : ridge == 1 ? 8 : ridge == 2 ? 10 : -4) + (across ? 4 : 0));
@@ -65,12 +33,6 @@ Image plain_pattern() {
     return image;
 }
 
-struct Loaded {
-    Image albedo;
-    Image normal, roughness, emission; // empty where there is none
-    bool found = false;
-};
-
 Image read_quietly(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return {};
@@ -78,18 +40,21 @@ Image read_quietly(const std::string& path) {
     return image ? std::move(*image) : Image{};
 }
 
-Loaded read_texture(const BlockRegistry& registry, const std::string& name) {
-    Loaded out;
+// Nothing is in `albedo` where it is not there.
+scene::TextureArt read_texture(const BlockRegistry& registry, const std::string& name, u32 frame_time) {
+    scene::TextureArt out;
     // Names come from content that a server may have sent: no way out of the folder.
     if (name.empty() || name.find("..") != std::string::npos || name[0] == '/') return out;
     for (const std::string& root : registry.content_roots) {
         const std::string stem = root + "/textures/" + name;
         out.albedo = read_quietly(stem + ".png");
         if (out.albedo.width == 0) continue;
-        out.found = true;
         out.normal = read_quietly(stem + "_n.png");
         out.roughness = read_quietly(stem + "_r.png");
         out.emission = read_quietly(stem + "_e.png");
+        if (const u32 count = std::min(frames_of(out.albedo), kContentFramesMost); count > 1)
+            for (u32 f = 0; f < count; ++f)
+                out.steps.push_back({u16(f), u16(std::clamp(frame_time, 1u, 65535u))});
         return out;
     }
     return out;
@@ -100,164 +65,106 @@ const Image* or_null(const Image& image) {
 }
 
 void upload(const gfx::Texture& texture, u32 layer, const MipChain& chain) {
-    for (u32 level = 0; level < kLevels; ++level) {
-        const GLsizei side = GLsizei(kSize >> level);
+    for (u32 level = 0; level < chain.levels.size(); ++level) {
+        const GLsizei side = GLsizei(texture.width >> level);
         glTextureSubImage3D(texture.name(), GLint(level), 0, 0, GLint(layer), side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
                             chain.levels[level].data());
     }
 }
 
+u64 bytes_of(const MipChain& chain) {
+    u64 sum = 0;
+    for (const auto& level : chain.levels)
+        sum += level.size();
+    return sum;
+}
+
+void mix(const MipChain& a, const MipChain& b, u32 share_of_256, MipChain& out) {
+    out.levels.resize(a.levels.size());
+    for (std::size_t l = 0; l < a.levels.size(); ++l) {
+        out.levels[l].resize(a.levels[l].size());
+        for (std::size_t i = 0; i < a.levels[l].size(); ++i)
+            out.levels[l][i] = u8((a.levels[l][i] * (256 - share_of_256) + b.levels[l][i] * share_of_256 + 128) >> 8);
+    }
+}
+
 } // namespace
 
-MipChain make_albedo_mips(const Image& image, u32 frame) {
-    struct Pixel {
-        float r, g, b, a;
-    };
-    std::vector<Pixel> now(kSize * kSize);
-    MipChain chain;
-    std::vector<u8> first(kSize * kSize * 4);
-    float sum[3] = {}, weight = 0;
-    for (u32 y = 0; y < kSize; ++y)
-        for (u32 x = 0; x < kSize; ++x) {
-            const auto t = texel(image, frame, x, y);
-            const Pixel p{linear_of(t[0]), linear_of(t[1]), linear_of(t[2]), float(t[3]) / 255};
-            now[y * kSize + x] = p;
-            sum[0] += p.r * p.a, sum[1] += p.g * p.a, sum[2] += p.b * p.a, weight += p.a;
-            std::copy(t.begin(), t.end(), first.begin() + (y * kSize + x) * 4);
-        }
-    // Clear texels take the mean color, so that filtering draws no dark rims.
-    if (weight > 0)
-        for (u32 i = 0; i < kSize * kSize; ++i)
-            if (first[i * 4 + 3] == 0) {
-                now[i] = {sum[0] / weight, sum[1] / weight, sum[2] / weight, 0};
-                for (u32 c = 0; c < 3; ++c)
-                    first[i * 4 + c] = srgb_of(sum[c] / weight);
-            }
-    chain.levels.push_back(std::move(first));
-    const float wanted = coverage(chain.levels[0]);
-    const bool holes = wanted < 1 && wanted > 0;
-    for (u32 level = 1, side = kSize / 2; level < kLevels; ++level, side /= 2) {
-        std::vector<Pixel> next(side * side);
-        std::vector<u8> bytes(side * side * 4);
-        for (u32 y = 0; y < side; ++y)
-            for (u32 x = 0; x < side; ++x) {
-                Pixel p{0, 0, 0, 0};
-                float plain[3] = {};
-                for (u32 k = 0; k < 4; ++k) {
-                    const Pixel& q = now[(y * 2 + k / 2) * side * 2 + x * 2 + k % 2];
-                    p.r += q.r * q.a, p.g += q.g * q.a, p.b += q.b * q.a, p.a += q.a;
-                    plain[0] += q.r / 4, plain[1] += q.g / 4, plain[2] += q.b / 4;
-                }
-                if (p.a > 0)
-                    p = {p.r / p.a, p.g / p.a, p.b / p.a, p.a / 4};
-                else
-                    p = {plain[0], plain[1], plain[2], 0};
-                next[y * side + x] = p;
-                u8* out = &bytes[(y * side + x) * 4];
-                out[0] = srgb_of(p.r), out[1] = srgb_of(p.g), out[2] = srgb_of(p.b), out[3] = u8(p.a * 255 + 0.5f);
-            }
-        if (holes) {
-            // As many texels pass the test as in level 0: those with most alpha, ties broken by a hash. (A scale for all, as is
-            // usual, jumps where many texels have the same alpha, as in art with hard edges.)
-            const u32 count = side * side, passing = u32(wanted * float(count) + 0.5f);
-            std::vector<std::pair<u32, u32>> order(count);
-            for (u32 i = 0; i < count; ++i) order[i] = {(255u - bytes[i * 4 + 3]) << 16 | (u32(mix64(i + 1)) & 0xffff), i};
-            std::sort(order.begin(), order.end());
-            for (u32 k = 0; k < count; ++k) {
-                u8& alpha = bytes[order[k].second * 4 + 3];
-                alpha = k < passing ? std::max<u8>(alpha, 160) : std::min<u8>(alpha, 95);
-            }
-        }
-        now = std::move(next);
-        chain.levels.push_back(std::move(bytes));
-    }
-    return chain;
+// Layers as large as the largest picture, within the memory that may be spent.
+u32 TextureSet::choose_size(u32 layers, u32 largest, const TextureLimits& limits) {
+    u32 size = std::bit_ceil(std::clamp(largest, kContentSize, std::max(limits.size_most, kContentSize)));
+    while (size > kContentSize && u64(layers) * size * size * 4 * 4 / 3 * 2 > limits.bytes_most)
+        size /= 2;
+    return size;
 }
 
-MipChain make_material_mips(const Image* normal, const Image* roughness, const Image* emission, u32 frame) {
-    auto frame_in = [&](const Image& image) { return frame % frames_of(image); };
-    std::vector<u8> now(kSize * kSize * 4);
-    for (u32 y = 0; y < kSize; ++y)
-        for (u32 x = 0; x < kSize; ++x) {
-            u8* out = &now[(y * kSize + x) * 4];
-            out[0] = out[1] = 128, out[2] = 230, out[3] = 0;
-            if (normal) {
-                const auto n = texel(*normal, frame_in(*normal), x, y);
-                out[0] = n[0], out[1] = n[1];
-            }
-            if (roughness) out[2] = texel(*roughness, frame_in(*roughness), x, y)[0];
-            if (emission) out[3] = texel(*emission, frame_in(*emission), x, y)[0];
-        }
-    MipChain chain;
-    chain.levels.push_back(now);
-    for (u32 level = 1, side = kSize / 2; level < kLevels; ++level, side /= 2) {
-        std::vector<u8> next(side * side * 4);
-        for (u32 y = 0; y < side; ++y)
-            for (u32 x = 0; x < side; ++x)
-                for (u32 c = 0; c < 4; ++c) {
-                    u32 sum = 2;
-                    for (u32 k = 0; k < 4; ++k)
-                        sum += now[((y * 2 + k / 2) * side * 2 + x * 2 + k % 2) * 4 + c];
-                    next[(y * side + x) * 4 + c] = u8(sum / 4);
-                }
-        chain.levels.push_back(next);
-        now = std::move(next);
-    }
-    return chain;
-}
-
-Result<> TextureSet::load(const BlockRegistry& registry, bool smooth, float anisotropy) {
+Result<> TextureSet::load(const BlockRegistry& registry, const scene::PackLooks* packs, const TextureLimits& limits,
+                          bool smooth, float anisotropy) {
     const auto& textures = registry.textures();
-    const u32 layers = std::max<u32>(u32(textures.size()), 1);
+    const u32 layers = std::max<u32>({u32(textures.size()), packs ? packs->texture_count() : 0, 1});
     GLint most = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
     if (layers > u32(most))
         return fail(ErrorCode::limit, fmt::format("{} textures, this OpenGL holds {}", layers, most));
-    albedo_ = gfx::make_texture_2d_array(GL_RGBA8, kSize, kSize, layers, kLevels);
-    material_ = gfx::make_texture_2d_array(GL_RGBA8, kSize, kSize, layers, kLevels);
+    size_ = choose_size(layers, packs ? packs->largest_side() : 0, limits);
+    if (packs && std::bit_ceil(packs->largest_side()) > size_)
+        log_info(fmt::format("pictures of packs have up to {0} x {0} texels: {1} x {1} of them are shown",
+                             packs->largest_side(), size_));
+    const u32 levels = u32(std::bit_width(size_));
+    albedo_ = gfx::make_texture_2d_array(GL_RGBA8, size_, size_, layers, levels);
+    material_ = gfx::make_texture_2d_array(GL_RGBA8, size_, size_, layers, levels);
     animations_.clear();
+    break_animations_ = false;
     missing_.clear();
+    u64 frame_bytes = 0;
     const Image plain = plain_pattern();
-    const MipChain plain_albedo = make_albedo_mips(plain, 0),
-                   plain_material = make_material_mips(nullptr, nullptr, nullptr, 0);
-    std::vector<std::pair<MipChain, MipChain>> frames;
+    const MipChain plain_albedo = make_albedo_mips(plain, 0, size_),
+                   plain_material = make_material_mips(nullptr, nullptr, nullptr, 0, size_);
     for (u32 id = 0; id < layers; ++id) {
-        const bool unknown = id == 0 || id >= textures.size();
-        const Loaded loaded = unknown ? Loaded{} : read_texture(registry, textures[id].name);
-        if (!loaded.found) {
-            if (!unknown) missing_.push_back(textures[id].name);
+        const bool content = id > 0 && id < textures.size();
+        const scene::TextureArt* art = packs ? packs->art(TextureId(id)) : nullptr;
+        scene::TextureArt own;
+        if (!art && content) own = read_texture(registry, textures[id].name, textures[id].frame_time);
+        if (!art) art = &own;
+        if (art->albedo.width == 0) {
+            if (content) missing_.push_back(textures[id].name);
             upload(albedo_, id, plain_albedo);
             upload(material_, id, plain_material);
             continue;
         }
-        const bool has_material = loaded.normal.width || loaded.roughness.width || loaded.emission.width;
-        auto material_of = [&](u32 frame) {
-            return has_material ? make_material_mips(or_null(loaded.normal), or_null(loaded.roughness),
-                                                     or_null(loaded.emission), frame)
-                                : plain_material;
+        const bool has_material = art->normal.width || art->roughness.width || art->emission.width;
+        const auto albedo_of = [&](u32 frame) { return make_albedo_mips(art->albedo, frame, size_, art->tint_mask); };
+        const auto material_of = [&](u32 frame) {
+            return make_material_mips(or_null(art->normal), or_null(art->roughness), or_null(art->emission), frame,
+                                      size_);
         };
-        const MipChain first = make_albedo_mips(loaded.albedo, 0);
-        const MipChain first_material = material_of(0);
-        upload(albedo_, id, first);
-        upload(material_, id, first_material);
-        const u32 count = std::min(frames_of(loaded.albedo), 64u);
-        if (count <= 1) continue;
-        animations_.push_back({id, u32(frames.size()), count, std::max(textures[id].frame_time, 1u), 0});
-        frames.emplace_back(first, first_material);
-        for (u32 f = 1; f < count; ++f)
-            frames.emplace_back(make_albedo_mips(loaded.albedo, f), material_of(f));
-    }
-    if (!frames.empty()) {
-        if (frames.size() > u32(most))
-            return fail(ErrorCode::limit,
-                        fmt::format("{} animation frames, this OpenGL holds {}", frames.size(), most));
-        frames_albedo_ = gfx::make_texture_2d_array(GL_RGBA8, kSize, kSize, u32(frames.size()), kLevels);
-        frames_material_ = gfx::make_texture_2d_array(GL_RGBA8, kSize, kSize, u32(frames.size()), kLevels);
-        for (u32 i = 0; i < frames.size(); ++i) {
-            upload(frames_albedo_, i, frames[i].first);
-            upload(frames_material_, i, frames[i].second);
+        const u32 shown = art->steps.empty() ? 0 : art->steps[0].frame;
+        upload(albedo_, id, albedo_of(shown));
+        upload(material_, id, has_material ? material_of(shown) : plain_material);
+        if (art->steps.size() < 2) continue;
+        Animation a;
+        a.layer = id, a.interpolate = art->interpolate;
+        std::vector<u32> place(frames_of(art->albedo), ~0u); // of a frame in a.albedo
+        for (const scene::TextureArt::Step& step : art->steps) {
+            if (step.frame >= place.size()) continue;
+            if (place[step.frame] == ~0u) {
+                place[step.frame] = u32(a.albedo.size());
+                a.albedo.push_back(albedo_of(step.frame));
+                if (has_material) a.material.push_back(material_of(step.frame));
+                frame_bytes += bytes_of(a.albedo.back()) * (has_material ? 2 : 1);
+            }
+            a.ticks += std::max<u32>(step.ticks, 1);
+            a.steps.push_back({place[step.frame], a.ticks});
+            if (frame_bytes > kFrameBytesMost) break;
         }
+        if (frame_bytes > kFrameBytesMost) {
+            log_info(fmt::format("animations take more than {} MiB: {} and those after it stand still",
+                                 kFrameBytesMost >> 20, art->name));
+            break_animations_ = true;
+        }
+        if (!break_animations_ && a.steps.size() > 1) animations_.push_back(std::move(a));
     }
+    if (packs) missing_.insert(missing_.end(), packs->missing().begin(), packs->missing().end());
     set_smooth(smooth, anisotropy);
     return {};
 }
@@ -276,24 +183,32 @@ void TextureSet::set_smooth(bool smooth, float anisotropy) {
 }
 
 void TextureSet::animate(double seconds) {
-    const u64 tick = u64(std::max(seconds, 0.0) * 20);
+    const u64 tick = u64(std::max(seconds, 0.0) * kTicksASecond);
     for (Animation& a : animations_) {
-        const u32 frame = u32(tick / a.frame_time % a.frames);
-        if (frame == a.shown) continue;
-        a.shown = frame;
-        for (u32 level = 0; level < kLevels; ++level) {
-            const GLsizei side = GLsizei(kSize >> level);
-            const GLint from = GLint(a.first_frame + frame), to = GLint(a.layer), at = GLint(level);
-            glCopyImageSubData(frames_albedo_.name(), GL_TEXTURE_2D_ARRAY, at, 0, 0, from, albedo_.name(),
-                               GL_TEXTURE_2D_ARRAY, at, 0, 0, to, side, side, 1);
-            glCopyImageSubData(frames_material_.name(), GL_TEXTURE_2D_ARRAY, at, 0, 0, from, material_.name(),
-                               GL_TEXTURE_2D_ARRAY, at, 0, 0, to, side, side, 1);
-        }
+        const u32 now = u32(tick % a.ticks);
+        const std::size_t step =
+            std::size_t(std::upper_bound(a.steps.begin(), a.steps.end(), now,
+                                         [](u32 t, const Animation::Step& s) { return t < s.end; }) -
+                        a.steps.begin());
+        const u64 key = a.interpolate ? now : step;
+        if (key == a.shown) continue;
+        a.shown = key;
+        const u32 from = a.steps[step].frame;
+        const auto show = [&](const gfx::Texture& texture, const std::vector<MipChain>& frames) {
+            if (frames.empty()) return;
+            const u32 to = a.steps[(step + 1) % a.steps.size()].frame;
+            if (!a.interpolate || from == to) return upload(texture, a.layer, frames[from]);
+            const u32 begin = step ? a.steps[step - 1].end : 0;
+            mix(frames[from], frames[to], (now - begin) * 256 / (a.steps[step].end - begin), mixed_);
+            upload(texture, a.layer, mixed_);
+        };
+        show(albedo_, a.albedo);
+        show(material_, a.material);
     }
 }
 
 u64 TextureSet::gpu_bytes() const {
-    return albedo_.bytes() + material_.bytes() + frames_albedo_.bytes() + frames_material_.bytes();
+    return albedo_.bytes() + material_.bytes();
 }
 
 } // namespace vitrail::render

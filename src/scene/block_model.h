@@ -8,6 +8,10 @@
 //     models.faces(id)[u8(Face::up)]          // FaceLook of a cube
 //     for (const StateQuad& q : models.quads(id)) ...
 //
+// Resource packs may replace looks (scene/pack_looks.h), never what a state is: an opaque full cube stays one. What
+// packs lay around such a cube makes it `detailed`. Models that packs give several looks are chosen by position:
+// quads(id, random).
+//
 // Thread-safe: `ensure` may run on any thread at any time; readers need no lock for ids below size().
 //
 // Textures: seen from outside a face, s runs to the right and t down, as in Minecraft: s = +z for west, -z for east, +x
@@ -24,15 +28,23 @@
 
 namespace vitrail::scene {
 
-// Only `opaque` is odd, so that kinds() serves as flags for voxel/surface.h and voxel/connectivity.h (bit 1).
+class PackLooks;
+
+// Only kinds that hide what is behind them are odd, so that kinds() serves as flags for voxel/surface.h and
+// voxel/connectivity.h (bit 1).
 enum class ModelKind : u8 {
     nothing = 0,     // draws nothing
     opaque = 1,      // full cube that hides what is behind it
     cutout = 2,      // full cube with holes (leaves, spawner)
+    detailed = 3,    // opaque, and quads() that stand out of the cube
     translucent = 4, // full cube of glass or ice: faces between equal states are left out
     liquid = 6,      // model quads that follow from the neighbors (surface corners), made by the mesher
     model = 8,       // fixed model quads
 };
+
+constexpr bool hides(ModelKind kind) {
+    return u8(kind) & 1;
+}
 
 // How a cube's face looks: the bits of render::Quad (render/meshing/quad.h) but position, size and ambient occlusion,
 // so that equal bits merge: face 20..22, texture 32..47, tint 48..50, fixed tint 51..58, flags 59..61, quarter
@@ -83,7 +95,9 @@ struct LiquidLook {
 class BlockModels {
 public:
     static constexpr u32 kMaxModelQuads = 1u << 19; // the index bits of a render::Quad
-    BlockModels();
+    BlockModels()
+        : BlockModels(nullptr) {}
+    explicit BlockModels(std::shared_ptr<const PackLooks> packs); // packs: of the same registry as the states', or null
     ~BlockModels();
     BlockModels(const BlockModels&) = delete;
     BlockModels& operator=(const BlockModels&) = delete;
@@ -101,8 +115,10 @@ public:
     std::span<const FaceLook, 6> faces(StateId id) const {
         return std::span<const FaceLook, 6>(looks_ + u64(id) * 6, 6);
     }
-    // Quads of states of kind `model`; empty for others.
+    // Quads of states of kind `model` and `detailed`; empty for others. Of several looks the likeliest.
     std::span<const StateQuad> quads(StateId id) const;
+    // Of several looks the one that belongs to a random number (32 bits, of the block's position).
+    std::span<const StateQuad> quads(StateId id, u32 random) const;
     // Of states of kind `liquid`, and of waterlogged models (then `fluid` is set); null for others.
     const LiquidLook* liquid(StateId id) const;
     // Cubes that are not opaque leave out faces between states of one group (all leaves are one; else one a block).
@@ -122,6 +138,9 @@ public:
 private:
     struct Impl;
     void compile(const StateTable& states, u32 id);
+    bool compile_from_packs(const StateTable& states, u32 id);
+    bool add_own_shape(const StateTable& states, u32 id, std::vector<StateQuad>& quads);
+    void set_kind(u32 id, const StateInfo& info, ModelKind kind);
     std::unique_ptr<Impl> impl_;
     ModelKind* kinds_ = nullptr;
     FaceLook* looks_ = nullptr;

@@ -79,7 +79,7 @@ void read_rows(const MeshInput& input, i32 dy, i32 dz, const MeshKernels& kernel
         s.table = w.table.size();
         u8 any = 0, all = 1;
         for (const StateId id : palette) {
-            const u8 opaque = input.models->kinds()[u32(id)] == scene::ModelKind::opaque;
+            const u8 opaque = scene::hides(input.models->kinds()[u32(id)]);
             w.table.push_back(opaque);
             any |= opaque, all &= opaque;
         }

@@ -30,7 +30,7 @@ const std::vector<Offset>& nearby_offsets() {
 
 void reveal_hidden(const MeshInput& input, MeshScratch::Impl& s) {
     const auto known_opaque = [&](StateId id) {
-        return id != StateId::hidden && input.models->kinds()[u32(id)] == scene::ModelKind::opaque;
+        return id != StateId::hidden && scene::hides(input.models->kinds()[u32(id)]);
     };
     s.cells.expand(*s.blocks);
     if (s.cells.uniform) s.cells.uniform = false; // entries may differ from now on

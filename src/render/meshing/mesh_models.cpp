@@ -1,11 +1,14 @@
 #include "render/meshing/mesh_scratch.h"
 
+#include "base/hash.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 namespace vitrail::render {
 
+using scene::hides;
 using scene::kModelUnit;
 using scene::LiquidLook;
 using scene::ModelQuad;
@@ -20,6 +23,12 @@ u32 beside(const PaddedMask& m, u32 x, u32 y, u32 z) {
 
 u64 position_bits(u32 x, u32 y, u32 z) {
     return u64(x) | u64(y) << 4 | u64(z) << 8;
+}
+
+// The same for a block in every mesh it is part of.
+u32 position_random(ChunkPos chunk, u32 x, u32 y, u32 z) {
+    const BlockPos at{chunk.x * kChunkSize + i32(x), chunk.y * kChunkSize + i32(y), chunk.z * kChunkSize + i32(z)};
+    return u32(mix64(hash_combine(hash_combine(u64(u32(at.x)), u64(u32(at.y))), u64(u32(at.z)))) >> 32);
 }
 
 bool test(const PaddedMask& m, i32 x, i32 y, i32 z) { // section coordinates -1..16
@@ -189,8 +198,9 @@ void mesh_models(const MeshInput& input, MeshScratch::Impl& s, const RowMask& ce
             const StateId id =
                 s.cells.palette.size() == 1 ? s.cells.palette[0] : s.cells.palette[s.cells.at(row * 16 + x)];
             const u32 closed = beside(s.opaque.first, x + 1, y + 1, z + 1);
+            if (closed == 63 && hides(input.models->kinds()[u32(id)])) continue; // nobody sees what stands out of it
             const u64 at = position_bits(x, y, z);
-            for (const scene::StateQuad& q : input.models->quads(id))
+            for (const scene::StateQuad& q : input.models->quads(id, position_random(input.at, x, y, z)))
                 if (!(closed >> q.cull & 1)) s.models[u32(q.pass)].push_back(q.bits | at);
         }
 }

@@ -11,6 +11,7 @@
 namespace vitrail::render {
 
 using scene::BlockModels;
+using scene::hides;
 using scene::ModelKind;
 using scene::ModelPass;
 
@@ -33,6 +34,9 @@ Contents contents_of(std::span<const StateId> palette, const BlockModels& models
         case ModelKind::opaque:
             out.opaque = true;
             break;
+        case ModelKind::detailed:
+            out.opaque = out.model = true;
+            break;
         case ModelKind::cutout:
         case ModelKind::translucent:
             out.grouped = true;
@@ -47,7 +51,7 @@ Contents contents_of(std::span<const StateId> palette, const BlockModels& models
         case ModelKind::nothing:
             break;
         }
-        out.other |= models.kinds()[u32(id)] != ModelKind::opaque;
+        out.other |= !hides(models.kinds()[u32(id)]);
         out.hidden |= id == StateId::hidden;
     }
     return out;
@@ -56,7 +60,7 @@ Contents contents_of(std::span<const StateId> palette, const BlockModels& models
 bool all_opaque(const Chunk* chunk, const MeshInput& input) {
     if (!chunk) return input.absent_is_opaque;
     for (const StateId id : chunk->blocks.palette())
-        if (input.models->kinds()[u32(id)] != ModelKind::opaque) return false;
+        if (!hides(input.models->kinds()[u32(id)])) return false;
     return true;
 }
 
@@ -246,7 +250,7 @@ void mesh_section(const MeshInput& input, SectionMesh& out, MeshScratch& scratch
     gather_classes(
         input, s.cells,
         [&](StateId id) {
-            const bool opaque = kinds[u32(id)] == ModelKind::opaque;
+            const bool opaque = hides(kinds[u32(id)]);
             return u8(u8(opaque) | u8(opaque || groups[u32(id)] == kLeaves) << 1);
         },
         input.absent_is_opaque ? 1 : 0, input.ambient_occlusion, input.ambient_occlusion, s.class_table, s.opaque);
@@ -265,7 +269,7 @@ void mesh_section(const MeshInput& input, SectionMesh& out, MeshScratch& scratch
     if (has.liquid) mesh_liquids(input, s);
     if (has.model) {
         for (std::size_t i = 0; i < s.cells.palette.size(); ++i)
-            s.class_table[i] = kinds[u32(s.cells.palette[i])] == ModelKind::model;
+            s.class_table[i] = kinds[u32(s.cells.palette[i])] == ModelKind::model || kinds[u32(s.cells.palette[i])] == ModelKind::detailed;
         RowMask cells;
         if (s.cells.palette.size() == 1)
             cells.fill(s.class_table[0] ? 0xffff : 0);

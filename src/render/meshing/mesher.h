@@ -35,6 +35,7 @@ struct MeshInput {
     static constexpr u32 kCenter = 13;
     // The section to mesh at kCenter (must be there) and its neighbors; null: absent.
     std::array<const Chunk*, 27> chunks{};
+    ChunkPos at{};                              // of the center: chooses among several looks of a model
     const scene::BlockModels* models = nullptr; // holds all states of the chunks
     bool absent_is_opaque = true;               // what absent chunks are: opaque (no faces towards the unknown) or air
     bool ambient_occlusion = true;              // off: every corner open (3)

@@ -10,7 +10,7 @@ namespace vitrail::render {
 namespace {
 
 struct IconVertex {
-    float x, y, z, layer, s, t, shade, unused, r, g, b, a;
+    float x, y, z, layer, s, t, shade, solid, r, g, b, a; // solid: alpha is the share of tint
 };
 
 Vec3 tint_color(u64 look, const scene::BlockModels& models) {
@@ -34,21 +34,21 @@ Vec3 tint_color(u64 look, const scene::BlockModels& models) {
 }
 
 void push_quad(std::vector<IconVertex>& out, const Vec3 (&p)[4], const Vec2 (&uv)[4], u64 look, float shade,
-               Vec3 tint) {
+               Vec3 tint, bool solid = false) {
     const float layer = float(look >> 32 & 0xffff);
     for (u32 i : {0u, 1u, 2u, 2u, 3u, 0u})
-        out.push_back({p[i].x, p[i].y, p[i].z, layer, uv[i].x, uv[i].y, shade, 0, tint.x, tint.y, tint.z, 1});
+        out.push_back({p[i].x, p[i].y, p[i].z, layer, uv[i].x, uv[i].y, shade, solid ? 1.0f : 0.0f, tint.x, tint.y, tint.z, 1});
 }
 
-void push_cube_face(std::vector<IconVertex>& out, Face face, u64 look, Vec3 tint) {
+void push_cube_face(std::vector<IconVertex>& out, Face face, u64 look, Vec3 tint, bool solid) {
     const Vec2 uv[4] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     switch (face) {
     case Face::up:
-        return push_quad(out, {{0, 1, 1}, {1, 1, 1}, {1, 1, 0}, {0, 1, 0}}, uv, look, 1.0f, tint);
+        return push_quad(out, {{0, 1, 1}, {1, 1, 1}, {1, 1, 0}, {0, 1, 0}}, uv, look, 1.0f, tint, solid);
     case Face::south:
-        return push_quad(out, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, uv, look, 0.80f, tint);
+        return push_quad(out, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, uv, look, 0.80f, tint, solid);
     case Face::east:
-        return push_quad(out, {{1, 0, 1}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, uv, look, 0.62f, tint);
+        return push_quad(out, {{1, 0, 1}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, uv, look, 0.62f, tint, solid);
     default:
         return;
     }
@@ -102,7 +102,7 @@ std::vector<IconVertex> icon_vertices(const StateTable& states, const scene::Blo
         const scene::LiquidLook* liquid = models.liquid(state);
         for (Face f : {Face::east, Face::south, Face::up}) {
             const u64 look = liquid ? liquid->still : models.faces(state)[u8(f)];
-            push_cube_face(out, f, look, tint_color(look, models));
+            push_cube_face(out, f, look, tint_color(look, models), scene::hides(kind));
         }
     }
     return out;

@@ -47,7 +47,11 @@ void main() {
     if (albedo.a < 0.5) discard;
 #endif
     vec4 light = texture(t_light, v_light_at).bgra;
+#ifdef CUTOUT
     vec3 color = albedo.rgb * v_tint;
+#else
+    vec3 color = albedo.rgb * mix(vec3(1.0), v_tint, albedo.a); // alpha: how much of the tint (render/texture_set.h)
+#endif
     o_albedo = vec4(color, v_uv_ao.z);
     o_light = light;
     uvec4 surface = uvec4(v_surface.y & 255u, v_surface.y >> 8 & 255u, v_surface.y >> 16 & 255u, 0u);
