@@ -334,28 +334,25 @@ Result<std::shared_ptr<const ResolvedModel>> ModelLibrary::resolve(const std::st
         for (ModelElementJson& element : out->elements)
             for (auto& face : element.faces) {
                 if (!face) continue;
-                // "#side" -> "#all" -> "block/stone"; files also leave the # away where a key is meant.
+                // "#side" -> "#all" -> "block/stone"; a face may leave the # away.
                 std::string key = face->texture, found;
                 for (u32 step = 0; step < 32; ++step) {
                     const bool hashed = key.starts_with('#');
-                    const auto it = textures.find(hashed ? std::string_view(key).substr(1) : std::string_view(key));
-                    if (it == textures.end()) {
-                        if (!hashed && step > 0) found = key;
-                        break;
-                    }
-                    key = it->second;
-                    if (!key.starts_with('#') && !textures.contains(key)) {
+                    if (!hashed && step > 0) {
                         found = key;
                         break;
                     }
+                    const auto it = textures.find(hashed ? std::string_view(key).substr(1) : std::string_view(key));
+                    if (it == textures.end()) break;
+                    key = it->second;
                 }
                 const auto named = parse_resource_name(found);
                 if (!found.empty() && named) {
                     face->texture = named->text();
                     continue;
                 }
-                if (std::find(out->missing.begin(), out->missing.end(), face->texture) == out->missing.end())
-                    out->missing.push_back(face->texture);
+                if (std::find(out->missing.begin(), out->missing.end(), key) == out->missing.end())
+                    out->missing.push_back(key);
                 face->texture.clear();
             }
         return out;
