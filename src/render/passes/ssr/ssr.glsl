@@ -44,12 +44,12 @@ MarchHit march_screen(vec3 place, vec3 direction, uint view, float jitter) {
     float pixels = max(abs(line.x) * size.x, abs(line.y) * size.y);
     if (pixels < 1.0 || !(pixels < 1e6)) return none;
 
-    // Quadratic: the first step is a pixel or two, so that what stands on the mirror touches its image.
+    // Steps grow from a pixel or two, so that what stands on the mirror touches its image.
     float first = min(1.5 / pixels, 1.0);
     float before = first * 0.5;
     for (int i = 0; i < MARCH_STEPS; ++i) {
         float x = (float(i) + jitter) * (1.0 / float(MARCH_STEPS));
-        float now = i + 1 == MARCH_STEPS ? 1.0 : first + (1.0 - first) * x * x;
+        float now = i + 1 == MARCH_STEPS ? 1.0 : first + (1.0 - first) * x * sqrt(x);
         vec3 p = from + line * now;
         float depth = texelFetch(t_depth, min(ivec2(p.xy * size), ivec2(size) - 1), 0).r;
         if (depth > p.z) {
