@@ -109,6 +109,7 @@ public:
 
     std::vector<float> depth; // reversed, by pixel, rows from the top; empty: nothing but sky
     std::vector<u8> views;    // numbers by pixel; empty: 0
+    std::vector<std::array<u8, 4>> surfaces; // the G-buffer's by pixel, before `views`; empty: 0
 
 private:
     static Picture read_texture(const gfx::Texture& t) {
@@ -132,7 +133,8 @@ private:
                 const Vec3& c = color_->pixels[from];
                 rgb[to * 4] = c.x, rgb[to * 4 + 1] = c.y, rgb[to * 4 + 2] = c.z, rgb[to * 4 + 3] = 1;
                 if (!depth.empty()) z[to] = depth[from];
-                if (!views.empty()) surface[to * 4 + 2] = views[from];
+                if (!surfaces.empty()) std::copy(surfaces[from].begin(), surfaces[from].end(), &surface[to * 4]);
+                if (!views.empty()) surface[to * 4 + 2] = u8((surface[to * 4 + 2] & ~7) | views[from]);
             }
         const auto put = [&](const char* name, u32 format, u32 type, const void* data) {
             glTextureSubImage2D(graph_.target(name).name(), 0, 0, 0, GLsizei(w), GLsizei(h), format, type, data);

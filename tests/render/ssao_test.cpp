@@ -1,5 +1,7 @@
 // Ambient occlusion of the screen against rays over the hemisphere of each pixel's surface.
 #include "box_scene.h"
+#include "pass_rig.h"
+#include "render/passes/ssao/ssao_pass.h"
 
 #include <algorithm>
 
@@ -120,6 +122,128 @@ TEST_F(Ssao, FloatingBlockLetsLightPass) {
     scene.fill({2, 1, 4}, {3, 1, 5}, "white");
     scene.set(-3, 1, 5, "white");
     expect_like_rays("floating", scene, {0.5, 3.2, 0.0, 0, 30}, 0.03, 0.02);
+}
+
+// Nothing darkens itself, however flat it is looked at, near and far.
+TEST_F(Ssao, OpenPlaneIsOpen) {
+    BoxScene scene;
+    scene.fill({-40, -1, -40}, {40, -1, 40}, "white");
+    auto renderer = make_renderer(Preset::off);
+    ASSERT_TRUE(renderer && renderer->set_effects(effects()));
+    scene.give(*renderer);
+    for (float pitch : {0.0f, 5.0f, 15.0f, 45.0f, 89.0f})
+        for (float height : {0.2f, 1.7f, 14.0f}) {
+            const Look look{0.3, height, -8.4, 31, pitch};
+            const TargetPixels ao = ao_of(*renderer, frame_of(look));
+            u32 seen = 0;
+            float least = 1;
+            for (u32 y = 0; y < ao.height; ++y)
+                for (u32 x = 0; x < ao.width; ++x) {
+                    const Vec3 ray = pixel_ray(frame_of(look), x, y);
+                    const auto hit = scene.trace({0.3f, height, -8.4f}, ray, 60);
+                    if (!hit || hit->normal.y != 1) continue;
+                    ++seen;
+                    least = std::min(least, ao.at(x, y)[0]);
+                }
+            EXPECT_GT(seen, 500u) << pitch << " " << height;
+            EXPECT_GT(least, 0.99f) << "pitch " << pitch << " height " << height;
+        }
+}
+
+// A block far in front of a wall leaves the wall alone, also right beside its outline.
+TEST_F(Ssao, NearThingsDoNotDarkenFarWalls) {
+    BoxScene scene;
+    scene.fill({-30, -20, 12}, {30, 20, 12}, "white");
+    scene.fill({-1, -1, 4}, {1, 0, 5}, "white");
+    auto renderer = make_renderer(Preset::off);
+    ASSERT_TRUE(renderer && renderer->set_effects(effects()));
+    scene.give(*renderer);
+    const Look look{0.4, 0.6, -1.0, 3, 2};
+    const TargetPixels ao = ao_of(*renderer, frame_of(look));
+    u32 wall = 0, beside = 0;
+    float least = 1;
+    for (u32 y = 0; y < ao.height; ++y)
+        for (u32 x = 0; x < ao.width; ++x) {
+            const auto z_at = [&](i32 px, i32 py) {
+                const Vec3 ray = pixel_ray(frame_of(look), u32(px), u32(py));
+                const auto hit = scene.trace({0.4f, 0.6f, -1.0f}, ray, 60);
+                return hit ? hit->distance * ray.z : 0.0f;
+            };
+            if (z_at(i32(x), i32(y)) < 12) continue;
+            ++wall;
+            beside += z_at(i32(x) + 2, i32(y)) < 8 || z_at(i32(x) - 2, i32(y)) < 8;
+            least = std::min(least, ao.at(x, y)[0]);
+        }
+    EXPECT_GT(wall, 10000u);
+    EXPECT_GT(beside, 60u);
+    EXPECT_GT(least, 0.99f);
+}
+
+// The radius is of the world: the same places are as dark from twice as far.
+TEST_F(Ssao, SamePlaceIsAsDarkFromFarther) {
+    BoxScene scene;
+    scene.fill({-12, -1, -12}, {12, -1, 8}, "white");
+    scene.fill({-12, 0, 5}, {12, 7, 5}, "white");
+    auto renderer = make_renderer(Preset::off);
+    ASSERT_TRUE(renderer && renderer->set_effects(effects()));
+    scene.give(*renderer);
+    const auto profile = [&](float away) { // along the floor towards the wall
+        const Look look{0.5, 0.5 * away, 5 - 0.87 * away, 0, 30, 400, 300};
+        const scene::FrameView frame = frame_of(look);
+        const TargetPixels ao = ao_of(*renderer, frame);
+        const Vec3 eye{float(look.x), float(look.y), float(look.z)};
+        std::array<float, 10> sums{}, counts{};
+        for (u32 y = 0; y < ao.height; ++y)
+            for (u32 x = ao.width / 3; x < ao.width * 2 / 3; ++x) {
+                const Vec3 ray = pixel_ray(frame, x, y);
+                const auto hit = scene.trace(eye, ray, 60);
+                if (!hit || hit->normal.y != 1) continue;
+                const float from_wall = 5 - (eye.z + ray.z * hit->distance);
+                if (from_wall < 0 || from_wall >= 2) continue;
+                sums[u32(from_wall * 5)] += ao.at(x, y)[0], counts[u32(from_wall * 5)] += 1;
+            }
+        for (u32 i = 0; i < sums.size(); ++i) {
+            EXPECT_GT(counts[i], 10);
+            sums[i] /= std::max(counts[i], 1.0f);
+        }
+        return sums;
+    };
+    const auto near = profile(5), far = profile(10);
+    EXPECT_LT(near[0], 0.7f);
+    EXPECT_GT(near[9], 0.98f);
+    for (u32 i = 0; i < near.size(); ++i)
+        EXPECT_NEAR(near[i], far[i], 0.04f) << i;
+}
+
+// What is seen through a portal lies elsewhere: it darkens nothing here, and the other way round.
+TEST_F(Ssao, ViewsDoNotDarkenEachOther) {
+    BoxScene scene;
+    scene.fill({-8, -1, -4}, {8, -1, 8}, "white");
+    scene.fill({-8, 0, 5}, {8, 5, 5}, "white");
+    const Look look{0.5, 2.4, 1.0, 0, 25};
+    scene::FrameView frame = frame_of(look);
+    frame.views.push_back(frame.views[0]);
+    const auto least_of = [&](bool apart) {
+        PassRig rig(effects(), passes_of<SsaoPass>());
+        for (u32 y = 0; y < frame.height; ++y)
+            for (u32 x = 0; x < frame.width; ++x) {
+                const Vec3 ray = pixel_ray(frame, x, y);
+                const auto hit = scene.trace({0.5f, 2.4f, 1.0f}, ray, 60);
+                const Vec3 forward = look_direction(0, 25 * 0.017453293f);
+                const u8 face = !hit ? 0 : hit->normal.y == 1 ? u8(Face::up) : u8(Face::north);
+                rig.depth.push_back(hit ? kNearPlane / (hit->distance * dot(ray, forward)) : 0);
+                rig.surfaces.push_back({127, 127, u8(face << 3), 0});
+                rig.views.push_back(u8(apart && hit && hit->normal.y == 0));
+            }
+        rig.draw(Picture(frame.width, frame.height), frame, 0);
+        const Picture ao = rig.read("ao");
+        float least = 1;
+        for (u32 i = 0; i < ao.pixels.size(); ++i)
+            if (rig.depth[i] > 0) least = std::min(least, ao.pixels[i].x);
+        return least;
+    };
+    EXPECT_LT(least_of(false), 0.65f);
+    EXPECT_GT(least_of(true), 0.99f);
 }
 
 } // namespace vitrail::render

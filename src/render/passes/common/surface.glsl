@@ -4,7 +4,10 @@ struct Surface {
     vec3 normal;     // shading normal, unit
     vec3 face;       // of the geometry, unit: shadows are offset along it
     vec4 light;      // levels of block r g b and sky, each 0..1
-    float ao;        // of the mesh and of the screen
+    float ao;        // of the mesh
+#ifdef SSAO
+    float screen_ao; // of the screen
+#endif
     float roughness; // 0..1
     float emission;  // 0..1
     bool plant;      // lit from all sides alike

@@ -43,8 +43,7 @@ void main() {
     s.roughness = float(surface.w >> 4) * (1.0 / 15.0);
     s.emission = float(surface.w & 15u) * (1.0 / 15.0);
 #ifdef SSAO
-    // The mesh's corners are the same light told once more, known also off the screen: the darker counts.
-    s.ao = min(s.ao, texelFetch(t_ao, pixel, 0).r);
+    s.screen_ao = texelFetch(t_ao, pixel, 0).r;
 #endif
     vec3 towards = ray * per_length;
     vec3 color = shade(s, place, towards, number);

@@ -11,19 +11,21 @@ vec3 shade(Surface s, vec3 place, vec3 towards, uint view) {
     // Two sides that both turn from the sun must still differ, or edges drown.
     float edge = 1.0 - 0.10 * abs(s.normal.x);
     float sky = s.light.a * sqrt(s.light.a);
-    vec3 sum = sky_irradiance(s.normal) * (sky * edge * s.ao);
 #ifdef SSAO
-    sum += sun * facing; // corners are dark by what they see of the sky alone
+    // The mesh's corners are the same light told once more, known also off the screen: the darker counts. The sun is left to
+    // its shadows, but for a touch in the corners, whose texture has more relief than its normals.
+    float open = min(s.ao, s.screen_ao), sunlit = 0.6 + 0.4 * s.ao;
 #else
-    sum += sun * (facing * (0.35 + 0.65 * s.ao));
+    float open = s.ao, sunlit = 0.35 + 0.65 * s.ao;
 #endif
+    vec3 sum = sky_irradiance(s.normal) * (sky * edge * open) + sun * (facing * sunlit);
     // Lamps: between a linear and a square law. Each channel loses one level a block, so far from a lamp only its strongest
     // color would be left: the weaker a light, the nearer to gray it is taken.
     float strongest = max(max(s.light.r, s.light.g), s.light.b);
     float gray = mix(1.15, 0.15, strongest) * strongest;
     vec3 hue = (s.light.rgb + gray) / max(strongest + gray, 1e-3);
     vec3 block = hue * vec3(1.10, 0.97, 0.84) * (strongest * (0.16 + 1.24 * strongest));
-    sum += (block + vec3(0.0200, 0.0210, 0.0240)) * s.ao; // the last: what eyes used to the dark still see
+    sum += (block + vec3(0.0200, 0.0210, 0.0240)) * open; // the last: what eyes used to the dark still see
     vec3 result = s.albedo * sum;
 #ifdef GLOSS
     // A gloss for what is smooth: Blinn-Phong with energy kept roughly.
