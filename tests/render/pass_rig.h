@@ -1,4 +1,4 @@
-// Runs passes alone, on pictures that a test makes: a source pass fills "color" (and "depth", "surface"), then the
+// Runs passes alone, on pictures that a test makes: a source pass fills "color" (and the G-buffer), then the
 // passes under test as the renderer would declare them.
 #pragma once
 
@@ -45,8 +45,14 @@ public:
         graph_.add_target({.name = "color", .format = GL_RGBA16F, .linear = true});
         graph_.add_target({.name = "depth", .format = GL_DEPTH_COMPONENT32F});
         graph_.add_target({.name = "surface", .format = GL_RGBA8UI});
+        graph_.add_target({.name = "albedo", .format = GL_RGBA8});
+        graph_.add_target({.name = "light", .format = GL_RGBA8});
         graph_.add_external("screen");
-        graph_.add_pass({"source", {}, {"color", "surface", "depth"}, [this](const gfx::PassContext&) { fill(); }, ""});
+        graph_.add_pass({"source",
+                         {},
+                         {"color", "albedo", "light", "surface", "depth"},
+                         [this](const gfx::PassContext&) { fill(); },
+                         ""});
         DeclareContext declaring{graph_, effects_, false};
         for (const auto& pass : passes_)
             pass->declare(declaring);
@@ -107,8 +113,8 @@ public:
             pass->forget();
     }
 
-    std::vector<float> depth; // reversed, by pixel, rows from the top; empty: nothing but sky
-    std::vector<u8> views;    // numbers by pixel; empty: 0
+    std::vector<float> depth;                // reversed, by pixel, rows from the top; empty: nothing but sky
+    std::vector<u8> views;                   // numbers by pixel; empty: 0
     std::vector<std::array<u8, 4>> surfaces; // the G-buffer's by pixel, before `views`; empty: 0
 
 private:
@@ -139,6 +145,9 @@ private:
         const auto put = [&](const char* name, u32 format, u32 type, const void* data) {
             glTextureSubImage2D(graph_.target(name).name(), 0, 0, 0, GLsizei(w), GLsizei(h), format, type, data);
         };
+        const u8 white[4] = {255, 255, 255, 255}, dark[4] = {}; // surfaces without any light
+        glClearTexImage(graph_.target("albedo").name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, white);
+        glClearTexImage(graph_.target("light").name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, dark);
         put("color", GL_RGBA, GL_FLOAT, rgb.data());
         put("depth", GL_DEPTH_COMPONENT, GL_FLOAT, z.data());
         put("surface", GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, surface.data());

@@ -82,7 +82,9 @@ void main() {
                 if (far <= 0.0 || (what & 7u) != number || (what >> 3 & 7u) == kFacePlant) continue;
                 vec3 s = place_of(view, there, far) - place;
                 // The pixel's middle lies beside the slice: moved along the surface into it, heights stay exact.
+                // Where the surface is seen along itself that way is long: what it carries past the middle tells nothing.
                 s -= back_onto * dot(s, axis);
+                if (dot(s, across) * sign_of <= 0.0) continue;
                 vec3 gap = s - last;
                 bool joined = dot(gap, gap) < radius * radius * (kJoin * kJoin);
                 if (dot(s, s) > radius * radius) {

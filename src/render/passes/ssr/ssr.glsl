@@ -97,13 +97,20 @@ float march_fade(vec3 place, vec3 direction) {
     return 1.0 - smoothstep(0.55, 0.85, back);
 }
 
+// Filtered, but not with texels of another view.
+vec3 scene_light(vec2 uv, float lod, uint view) {
+    uvec4 views_near = uvec4(textureGather(t_scene, uv, 3) + 0.5) & 7u;
+    if (any(notEqual(views_near, uvec4(view)))) return texelFetch(t_scene, min(ivec2(uv * screen.xy), ivec2(screen.xy) - 1), 0).rgb;
+    return textureLod(t_scene, uv, lod).rgb;
+}
+
 // rgb: light from there; a: how sure it is, 0..1.
 vec4 march_reflection(vec3 place, vec3 direction, uint view, float jitter) {
     float fade = march_fade(place, direction);
     if (fade <= 0.0) return vec4(0.0);
     MarchHit hit = march_screen(place, direction, view, jitter);
     if (hit.confidence <= 0.0) return vec4(0.0);
-    return vec4(textureLod(t_scene, hit.uv, 0.0).rgb, hit.confidence * fade);
+    return vec4(scene_light(hit.uv, 0.0, view), hit.confidence * fade);
 }
 
 // The same in a rough mirror: the light of a cone. spread: tangent of its half angle.
@@ -115,5 +122,5 @@ vec4 march_reflection_rough(vec3 place, vec3 direction, uint view, float jitter,
     // The cone's width at the hit as the eye sees it: its image lies as far behind the mirror as the hit before it.
     float away = length(place);
     float width = spread * hit.along / max(away + hit.along, 1e-3) / views[view].ray_right.w;
-    return vec4(textureLod(t_scene, hit.uv, log2(max(2.0 * width, 1.0))).rgb, hit.confidence * fade);
+    return vec4(scene_light(hit.uv, log2(max(2.0 * width, 1.0)), view), hit.confidence * fade);
 }
