@@ -131,7 +131,7 @@ void main() {
 #endif
         // Slabs, stairs and fences have faces along the axes too: those know them exactly, whatever relief does later.
         vec3 straight = step(vec3(0.999), abs(normal));
-        if (straight.x + straight.y + straight.z == 1.0)
+        if (straight.x + straight.y + straight.z == 1.0 && dot(abs(normal), vec3(1.0)) < 1.004)
             what = uint(dot(straight, vec3(0.0, 2.0, 4.0))) + (dot(normal, straight) > 0.0 ? 1u : 0u);
         if ((flags & 2u) != 0u) {
             normal = vec3(0.0, 1.0, 0.0);
