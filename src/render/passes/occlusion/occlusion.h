@@ -1,8 +1,10 @@
 // Occlusion culling on the GPU, within one frame and without waiting: what was seen in the frame before is drawn first;
 // then the boxes of all sections in sight are held against that depth, and those that pass and were not drawn are drawn
 // too, by commands whose instance count a compute shader writes. So nothing is ever missing, however fast the eye
-// turns, and the picture is the one without culling. (Two-pass occlusion culling: U. Haar and S. Aaltonen, GPU-Driven
-// Rendering Pipelines, SIGGRAPH 2015 course; here by rasterized boxes, which are exact, instead of a depth pyramid.)
+// turns, and the picture is the one without culling (but
+// for the odd pixel where the edges of two faces have the very same depth: the first one drawn has it). (Two-pass
+// occlusion culling: U. Haar and S. Aaltonen, GPU-Driven Rendering Pipelines, SIGGRAPH 2015 course; here by rasterized
+// boxes, which are exact, instead of a depth pyramid.)
 //
 // Which section was seen when stays on the GPU, by SectionStore's slots. How many were drawn comes back some frames
 // later, for statistics alone.
