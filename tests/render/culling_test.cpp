@@ -88,7 +88,8 @@ struct Turning {
         auto made = Renderer::create({.effects = effects});
         effects.culling = {.caves = false, .occlusion = false};
         auto plain = Renderer::create({.effects = effects});
-        ASSERT_TRUE(made && plain);
+        ASSERT_TRUE(made) << made.error().message;
+        ASSERT_TRUE(plain);
         Renderer &culled = **made, &whole = **plain;
         scene.give(culled), scene.give(whole);
         Rng rng(3);

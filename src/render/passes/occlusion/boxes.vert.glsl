@@ -1,11 +1,13 @@
 // The three faces of a section's box that look at the eye, 18 vertices an instance.
 #include "common/frame.glsl"
+#include "occlusion/seen.glsl"
 
 layout(location = 0) in ivec4 in_section; // blocks from the eye's block
 layout(std430, binding = 4) readonly buffer Slots { uint slots[]; };
+layout(std430, binding = 5) buffer Seen { uint seen[]; };
+layout(location = 0) uniform uint u_now;
 layout(location = 0) flat out uint v_slot;
 
-const uint kAlways = 1u << 31;
 const float kReach = 3.0 / 16.0; // kSectionReach of render/culling.h
 
 void main() {
@@ -21,6 +23,8 @@ void main() {
     p[v] = corner >= 2 ? most[v] : least[v];
     gl_Position = views[0].view_proj * vec4(p, 1.0);
     bool looks = least[axis] > 0.0 || most[axis] < 0.0;
-    if (!looks || (slot & kAlways) != 0u) gl_Position = vec4(0.0, 0.0, -1.0, 0.0);
+    // A fragment may write what is read here; whichever comes first, the section has been seen.
+    bool drawn = (slot & kAlways) != 0u || (seen_lately(seen[slot & ~kAlways], u_now) && !tested_again(slot, u_now));
+    if (!looks || drawn) gl_Position = vec4(0.0, 0.0, -1.0, 0.0);
     v_slot = slot;
 }

@@ -1,4 +1,6 @@
 // After the test: the commands that are still to be drawn, and the list of all that are seen.
+#include "occlusion/seen.glsl"
+
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Source { uint source[]; }; // DrawCommand, five words each
 layout(std430, binding = 1) buffer Lists { uint lists[]; };            // first, late, both
@@ -7,19 +9,17 @@ layout(std430, binding = 4) readonly buffer Slots { uint slots[]; };
 layout(std430, binding = 5) buffer Seen { uint seen[]; };
 layout(location = 0) uniform uvec4 u_count; // commands, the number of this frame, words of a list, sections
 
-const uint kAlways = 1u << 31;
-
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < u_count.w) {
         uint slot = slots[i];
         if ((slot & kAlways) != 0u) seen[slot & ~kAlways] = u_count.y;
-        if ((slot & kAlways) != 0u || seen[slot & ~kAlways] == u_count.y) atomicAdd(sections, 1u);
+        if ((slot & kAlways) != 0u || seen_lately(seen[slot & ~kAlways], u_count.y)) atomicAdd(sections, 1u);
     }
     if (i >= u_count.x) return;
     uint at = i * 5u;
     uint slot = slots[source[at + 4u]];
-    bool is_seen = (slot & kAlways) != 0u || seen[slot & ~kAlways] == u_count.y;
+    bool is_seen = (slot & kAlways) != 0u || seen_lately(seen[slot & ~kAlways], u_count.y);
     bool drawn = lists[at + 1u] != 0u;
     for (uint list = 1u; list < 3u; ++list) {
         uint to = list * u_count.z + at;
@@ -29,7 +29,7 @@ void main() {
         lists[to + 3u] = source[at + 3u];
         lists[to + 4u] = source[at + 4u];
     }
-    if (is_seen || drawn) {
+    if (is_seen) {
         atomicAdd(quads, source[at] / 6u);
         atomicAdd(draws, 1u);
     }

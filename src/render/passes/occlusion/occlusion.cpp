@@ -104,7 +104,7 @@ void Occlusion::prepare(FrameContext& frame, ViewDraws& draws) {
     bind(4, slots_, slots_offset_, records_ * sizeof(u32));
     bind(5, seen_.name(), 0, seen_.bytes);
     glUseProgram(first_->name());
-    glProgramUniform2ui(first_->name(), 0, command_count_, now_ - 1);
+    glProgramUniform2ui(first_->name(), 0, command_count_, now_);
     glDispatchCompute((command_count_ + kGroup - 1) / kGroup, 1, 1);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }

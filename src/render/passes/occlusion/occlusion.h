@@ -1,10 +1,10 @@
-// Occlusion culling on the GPU, within one frame and without waiting: what was seen in the frame before is drawn first;
-// then the boxes of all sections in sight are held against that depth, and those that pass and were not drawn are drawn
-// too, by commands whose instance count a compute shader writes. So nothing is ever missing, however fast the eye
-// turns, and the picture is the one without culling (but
-// for the odd pixel where the edges of two faces have the very same depth: the first one drawn has it). (Two-pass
-// occlusion culling: U. Haar and S. Aaltonen, GPU-Driven Rendering Pipelines, SIGGRAPH 2015 course; here by rasterized
-// boxes, which are exact, instead of a depth pyramid.)
+// Occlusion culling on the GPU, within one frame and without waiting: what was seen lately is drawn first; then the
+// boxes of all other sections in sight are held against that depth, and those that pass are drawn too, by commands
+// whose instance count a compute shader writes. What was seen is tested again every few frames, a part of it in each.
+// So nothing is ever missing, however fast the eye turns, and the picture is the one without culling (but for the odd
+// pixel where the edges of two faces have the very same depth: the first one drawn has it). (Two-pass occlusion
+// culling: U. Haar and S. Aaltonen, GPU-Driven Rendering Pipelines, SIGGRAPH 2015 course; here by rasterized boxes,
+// which are exact, instead of a depth pyramid.)
 //
 // Which section was seen when stays on the GPU, by SectionStore's slots. How many were drawn comes back some frames
 // later, for statistics alone.
@@ -48,7 +48,7 @@ private:
     bool answered_ = false;
     Counts last_;
 
-    u32 now_ = 0;
+    u32 now_ = 1000; // number of the frame; sections begin as seen in frame 0, long ago
     // Of the frame being drawn.
     u32 records_ = 0, command_count_ = 0, list_words_ = 0;
     u32 source_ = 0, slots_ = 0;
