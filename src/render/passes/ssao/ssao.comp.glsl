@@ -9,12 +9,12 @@
 #include "common/surface.glsl"
 #include "common/dither.glsl"
 
-layout(location = 0) in vec2 v_ndc;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 2) uniform usampler2D t_surface;
 layout(binding = 3) uniform sampler2D t_depth;
 layout(location = 0) uniform vec2 u_radius; // blocks; strength
 layout(location = 1) uniform uint u_turn;   // of the frame, 0 where frames are not averaged
-layout(location = 0) out float o_ao;
+layout(binding = 0, r8) writeonly uniform image2D i_ao;
 
 const float kPi = 3.14159265, kHalfPi = 1.57079633;
 const float kThickness = 1.0; // blocks, of what stands there
@@ -32,20 +32,17 @@ float light_until(float angle, float g, float cos_g, float sin_g) {
     return angle < 0.0 ? -arc : arc;
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy), size = ivec2(screen.xy);
+float open_at(ivec2 pixel, ivec2 size, float depth) {
     uvec4 surface = texelFetch(t_surface, pixel, 0);
     uint number = surface.z & 7u, face = surface.z >> 3 & 7u;
-    o_ao = 1.0;
-    if (face == kFacePlant) return;
+    if (face == kFacePlant) return 1.0;
     ViewData view = views[number];
-    float depth = texelFetch(t_depth, pixel, 0).r;
     vec3 place = place_of(view, pixel, depth);
     float pixels = u_radius.x / (view.ray_right.w * (view.fraction.w / depth)), most = kWidest * screen.y;
     float radius = u_radius.x * min(most / pixels, 1.0);
     pixels = min(pixels, most);
     float fade = smoothstep(1.5, 4.0, pixels); // far away it is smaller than pixels
-    if (fade <= 0.0) return;
+    if (fade <= 0.0) return 1.0;
 
     vec3 normal = face < 6u ? axis_of_face(face) : normal_from_bytes(surface.xy);
     vec3 to_eye = -normalize(place);
@@ -73,7 +70,7 @@ void main() {
             float last_angle = g + sign_of * kHalfPi; // the surface itself
             for (int i = 0; i < STEPS; ++i) {
                 float x = (float(i) + shift) * (1.0 / float(STEPS));
-                vec2 at = gl_FragCoord.xy + along * (sign_of * max(pixels * x * x, 1.0));
+                vec2 at = vec2(pixel) + 0.5 + along * (sign_of * max(pixels * x * x, 1.0));
                 ivec2 there = ivec2(floor(at));
                 if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, size))) break;
                 float far = texelFetch(t_depth, there, 0).r;
@@ -110,5 +107,12 @@ void main() {
         visible += weight * (1.0 - float(bitCount(hidden)) * (1.0 / 32.0));
         all += weight;
     }
-    o_ao = mix(1.0, pow(max(visible / max(all, 1e-6), 0.0), u_radius.y), fade);
+    return mix(1.0, pow(max(visible / max(all, 1e-6), 0.0), u_radius.y), fade);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = ivec2(screen.xy);
+    if (any(greaterThanEqual(pixel, size))) return;
+    float depth = texelFetch(t_depth, pixel, 0).r;
+    imageStore(i_ao, pixel, vec4(depth > 0.0 ? open_at(pixel, size, depth) : 1.0));
 }

@@ -1,16 +1,16 @@
-// One direction of the blur that evens out the noise of ssao.frag.glsl. Neighbors count where they lie in the same plane, of the
+// One direction of the blur that evens out the noise of ssao.comp.glsl. Neighbors count where they lie in the same plane, of the
 // same view, and near: nothing is carried over an edge.
 #include "common/frame.glsl"
 #include "common/normal.glsl"
 #include "common/surface.glsl"
 
-layout(location = 0) in vec2 v_ndc;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D t_ao;
 layout(binding = 2) uniform usampler2D t_surface;
 layout(binding = 3) uniform sampler2D t_depth;
 layout(location = 0) uniform vec2 u_radius; // blocks
 layout(location = 1) uniform ivec2 u_step;  // pixels: (1, 0) or (0, 1)
-layout(location = 0) out float o_ao;
+layout(binding = 0, r8) writeonly uniform image2D i_ao;
 
 const int kReach = 3;
 
@@ -20,11 +20,16 @@ vec3 place_of(ViewData view, ivec2 pixel, float depth) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy), size = ivec2(screen.xy);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = ivec2(screen.xy);
+    if (any(greaterThanEqual(pixel, size))) return;
+    float depth = texelFetch(t_depth, pixel, 0).r;
+    if (depth <= 0.0) {
+        imageStore(i_ao, pixel, vec4(1.0));
+        return;
+    }
     uvec4 surface = texelFetch(t_surface, pixel, 0);
     ViewData view = views[surface.z & 7u];
     uint face = surface.z >> 3 & 7u;
-    float depth = texelFetch(t_depth, pixel, 0).r;
     float away = view.fraction.w / depth;
     vec3 place = place_of(view, pixel, depth);
     vec3 normal = face < 6u ? axis_of_face(face) : normal_from_bytes(surface.xy);
@@ -42,5 +47,5 @@ void main() {
         sum += texelFetch(t_ao, there, 0).r * weight;
         weights += weight;
     }
-    o_ao = sum / weights;
+    imageStore(i_ao, pixel, vec4(sum / weights));
 }
