@@ -8,13 +8,13 @@
 #include "common/dither.glsl"
 #include "ssr/ssr.glsl"
 
-layout(location = 0) in vec2 v_ndc;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D t_albedo;
 layout(binding = 1) uniform sampler2D t_light;
 layout(binding = 2) uniform usampler2D t_surface;
 layout(location = 0) uniform float u_roughest;
 layout(location = 1) uniform uint u_turn; // of the frame, 0 where frames are not averaged
-layout(location = 0) out vec4 o_color;
+layout(binding = 0, rgba16f) uniform image2D i_color;
 
 // What a ray that found nothing most likely met: the sky as open as it is here, else what the lamps here light.
 vec3 surroundings(vec3 direction, vec4 light) {
@@ -24,15 +24,19 @@ vec3 surroundings(vec3 direction, vec4 light) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(screen.xy)))) return;
+    float depth = texelFetch(t_depth, pixel, 0).r;
+    if (depth <= 0.0) return;
     uvec4 surface = texelFetch(t_surface, pixel, 0);
     float roughness = float(surface.w >> 4) * (1.0 / 15.0);
     uint face = surface.z >> 3 & 7u, number = surface.z & 7u;
-    if (roughness >= u_roughest || face == kFacePlant) discard;
+    if (roughness >= u_roughest || face == kFacePlant) return;
 
     ViewData view = views[number];
-    vec3 ray = view.ray_forward.xyz + view.ray_right.xyz * v_ndc.x + view.ray_up.xyz * v_ndc.y;
-    vec3 place = ray * (view.fraction.w / max(texelFetch(t_depth, pixel, 0).r, 1e-9));
+    vec2 ndc = (vec2(pixel) + 0.5) * screen.zw * 2.0 - 1.0;
+    vec3 ray = view.ray_forward.xyz + view.ray_right.xyz * ndc.x + view.ray_up.xyz * ndc.y;
+    vec3 place = ray * (view.fraction.w / depth);
     vec3 towards = normalize(ray);
     float away = length(place);
     vec3 normal = normal_from_bytes(surface.xy);
@@ -58,5 +62,6 @@ void main() {
     vec3 air = apply_fog(vec3(0.0), away, towards, view.ray_up.w, light.a);
     vec3 clear = apply_fog(vec3(1.0), away, towards, view.ray_up.w, light.a) - air;
     share *= dot(clear, vec3(1.0 / 3.0));
-    o_color = vec4(reflected * share, share);
+    vec4 was = imageLoad(i_color, pixel);
+    imageStore(i_color, pixel, vec4(mix(was.rgb, reflected, share), was.a));
 }
