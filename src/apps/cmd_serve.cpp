@@ -20,6 +20,7 @@ Result<> run_serve(const ServeOptions& options) {
     server_options.folder = options.world;
     server_options.create = false;
     server_options.device = options.device;
+    server_options.day_minutes = options.day_minutes;
     VX_TRY_ASSIGN(const auto server, server::Server::open(server_options, content));
     const std::atomic<bool>& stop = stop_on_signals();
     server->start();

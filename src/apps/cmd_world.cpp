@@ -20,8 +20,9 @@ Result<> run_inspect(const WorldOptions& options) {
         blocks += count;
         if (name != "minecraft:air" && name != "minecraft:cave_air" && name != "minecraft:void_air") solid += count;
     }
-    fmt::print("world         {}\nseed          {}\nspawn         {},{},{}\ntime          {} ticks\n", report.level.name, report.level.seed,
-               report.level.spawn.at.x, report.level.spawn.at.y, report.level.spawn.at.z, report.level.time_ticks);
+    fmt::print("world         {}\nseed          {}\nspawn         {},{},{}\ntime          {} ticks, a day takes {} minutes\n", report.level.name, report.level.seed,
+               report.level.spawn.at.x, report.level.spawn.at.y, report.level.spawn.at.z, report.level.time_ticks,
+               report.level.day_minutes);
     for (const auto& d : report.dimensions)
         fmt::print("dimension     {}: {} columns, {} chunks, {} bytes\n", d.name, d.columns, d.chunks, d.chunk_bytes);
     fmt::print("blocks        {} ({} not air) of {} states\nbiomes        {}\nplayers       {}\nblock entities {}\nentities      {}\n"

@@ -73,12 +73,14 @@ struct PlayOptions {
     std::string device = "auto";
     EffectArguments effects; // over the settings
     std::vector<std::string> packs; // instead of the settings'
+    std::optional<u32> day_minutes; // none: as the world has it
 };
 Result<> run_play(const PlayOptions& options);
 
 struct ServeOptions {
     std::string world, device = "auto";
     int port = 0;
+    std::optional<u32> day_minutes; // none: as the world has it
 };
 Result<> run_serve(const ServeOptions& options);
 

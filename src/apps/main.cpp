@@ -154,6 +154,8 @@ int main(int argc, char** argv) {
         c->add_option("--device", play.device, "what makes the land: cpu, cuda or auto");
         add_effect_arguments(*c, play.effects);
         c->add_option("--pack", play.packs, "resource pack, zip or folder; several: the later covers the earlier")->allow_extra_args(false);
+        c->add_option("--day-minutes", play.day_minutes, "how long a day takes, 0 (time stands still) to 1440; kept with the world")
+            ->check(CLI::Range(0, 1440));
         commands.push_back({c, [&] { return run_play(play); }});
     }
     ServeOptions serve;
@@ -162,6 +164,8 @@ int main(int argc, char** argv) {
         c->add_option("--world", serve.world, "world folder")->required();
         c->add_option("--port", serve.port, "UDP port");
         c->add_option("--device", serve.device, "what makes the land: cpu, cuda or auto");
+        c->add_option("--day-minutes", serve.day_minutes, "how long a day takes, 0 (time stands still) to 1440; kept with the world")
+            ->check(CLI::Range(0, 1440));
         commands.push_back({c, [&] { return run_serve(serve); }});
     }
     BenchOptions bench;

@@ -10,6 +10,8 @@ int main(int argc, char** argv) {
     app.add_option("--world", options.world, "world folder")->required();
     app.add_option("--port", options.port, "UDP port");
     app.add_option("--device", options.device, "what makes the land: cpu, cuda or auto");
+    app.add_option("--day-minutes", options.day_minutes, "how long a day takes, 0 (time stands still) to 1440; kept with the world")
+        ->check(CLI::Range(0, 1440));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -2,6 +2,7 @@
 
 #include "math/angle.h"
 #include "scene/sky.h"
+#include "world/day_clock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +25,13 @@ bool eye_in_liquid(const Dimension& dimension, WorldPos eye) {
     return view_from(corner_of(at), eye).v.y < height;
 }
 
-scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension, u32 width, u32 height, float time_of_day,
+scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension, u32 width, u32 height, double day_ticks,
                              u32 view_distance, float seconds) {
     scene::FrameView frame;
     frame.width = width;
     frame.height = height;
-    frame.sky = scene::sky_at(time_of_day);
+    const double day = std::floor(std::max(day_ticks, 0.0) / kDayTicks);
+    frame.sky = scene::sky_at(float(day_ticks - day * kDayTicks), u64(day));
     frame.view_distance = float(view_distance * kChunkSize);
     frame.seconds = std::fmod(seconds, 65536.0f);
     scene::View view;

@@ -12,8 +12,8 @@ struct CameraPose {
     float fov_deg = 70; // vertical
 };
 
-// view_distance in chunks; time of day 0..24000; seconds since the start, for animation.
-scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension, u32 width, u32 height, float time_of_day,
+// view_distance in chunks; day_ticks since the world began, 24000 a day; seconds since the start, for animation.
+scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension, u32 width, u32 height, double day_ticks,
                              u32 view_distance, float seconds);
 
 // The pose between two steps, alpha 0 before .. 1 after; positions further than 8 blocks apart are not interpolated.

@@ -12,6 +12,7 @@
 
 #include "base/fields.h"
 #include "voxel/coords.h"
+#include "world/day_clock.h"
 
 #include <string>
 #include <variant>
@@ -245,18 +246,22 @@ struct Welcome {
     std::vector<std::string> hotbar;
     u32 hotbar_selected = 0;
     u64 seed = 0;
+    u32 day = 0; // days since the world began
+    u32 day_minutes = kUsualDayMinutes;
     static constexpr auto fields = std::tuple{
         field<1>("version", &Welcome::version),
         field<2>("player", &Welcome::player),
         field<3>("dimensions", &Welcome::dimensions, {.most = 256}),
         field<4>("body", &Welcome::body),
         field<5>("tick", &Welcome::tick),
-        field<6>("time_of_day", &Welcome::time_of_day, {.most_value = 23999}),
+        field<6>("time_of_day", &Welcome::time_of_day, {.most_value = kDayTicks - 1}),
         field<7>("content_hash", &Welcome::content_hash),
         field<8>("view_distance", &Welcome::view_distance, {.least_value = 1, .most_value = kMostViewDistance}),
         field<9>("hotbar", &Welcome::hotbar, {.most = 16}),
         field<10>("hotbar_selected", &Welcome::hotbar_selected, {.most_value = 15}),
-        field<11>("seed", &Welcome::seed)};
+        field<11>("seed", &Welcome::seed),
+        field<12>("day", &Welcome::day),
+        field<13>("day_minutes", &Welcome::day_minutes, {.most_value = kMostDayMinutes})};
 };
 
 // The content registry (net/registry_codec.h); comes before Welcome where the client's hash differs.
@@ -391,8 +396,13 @@ struct TimeOfDay {
     static constexpr MessageType kType = MessageType::time_of_day;
     u64 tick = 0;
     u32 time_of_day = 0; // 0..23999
-    static constexpr auto fields = std::tuple{field<1>("tick", &TimeOfDay::tick),
-                                              field<2>("time_of_day", &TimeOfDay::time_of_day, {.most_value = 23999})};
+    u32 day = 0;         // days since the world began
+    u32 day_minutes = kUsualDayMinutes; // how fast it goes on (world/day_clock.h)
+    static constexpr auto fields =
+        std::tuple{field<1>("tick", &TimeOfDay::tick),
+                   field<2>("time_of_day", &TimeOfDay::time_of_day, {.most_value = kDayTicks - 1}),
+                   field<3>("day", &TimeOfDay::day),
+                   field<4>("day_minutes", &TimeOfDay::day_minutes, {.most_value = kMostDayMinutes})};
 };
 
 struct Notice {

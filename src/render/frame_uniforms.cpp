@@ -54,9 +54,7 @@ FrameUniforms make_frame_uniforms(const scene::FrameView& frame, Vec2 jitter, co
     u.light_direction = with(sky.sun_direction.y >= 0 ? sky.sun_direction : sky.moon_direction, 0);
     u.sun_light = with(sky.sun_light, 0);
     u.ambient = with(sky.ambient, frame.views.empty() ? 1.0f : frame.views[0].open_air);
-    u.zenith = with(sky.zenith, 0);
-    u.horizon = with(sky.horizon, 0);
-    u.glow = with(sky.glow, 0);
+    u.sky_azimuth = {sky.sun_azimuth.x, sky.sun_azimuth.y, 0, 0};
     const float w = float(frame.width), h = float(frame.height);
     u.screen = {w, h, 1 / w, 1 / h};
     u.misc = {frame.seconds, 1 / std::max(frame.view_distance, 1.0f), frame.gamma_exposure,
@@ -64,7 +62,7 @@ FrameUniforms make_frame_uniforms(const scene::FrameView& frame, Vec2 jitter, co
     u.background = with(background, background_on ? 1.0f : 0.0f);
     u.jitter = {2 * jitter.x / w, 2 * jitter.y / h, 0, 0};
     for (u32 i = 0; i < 9; ++i)
-        u.sky_sh[i] = with(sky.irradiance[i], 0);
+        u.sky_sh[i] = with(sky.irradiance.c[i], 0);
     return u;
 }
 

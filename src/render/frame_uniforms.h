@@ -21,11 +21,11 @@ struct ViewUniforms {
 
 struct FrameUniforms {
     ViewUniforms views[kViewsMost];
-    Vec4 sun_direction, moon_direction, light_direction, sun_light, ambient, zenith, horizon, glow, screen, misc,
+    Vec4 sun_direction, moon_direction, light_direction, sun_light, ambient, sky_azimuth, screen, misc,
         background, jitter;
     Vec4 sky_sh[9];
 };
-static_assert(sizeof(ViewUniforms) == 224 && sizeof(FrameUniforms) == 8 * 224 + 21 * 16);
+static_assert(sizeof(ViewUniforms) == 224 && sizeof(FrameUniforms) == 8 * 224 + 19 * 16);
 
 // The views of the frame before, for `previous`; none where nothing may be taken from it.
 struct PreviousViews {

@@ -109,8 +109,9 @@ public:
     const std::vector<std::string>& hotbar() const { return hotbar_; }
     u32 hotbar_selected() const { return hotbar_selected_; }
     std::vector<net::Notice> take_notices();
-    // 0..24000, runs on between the server's ticks.
-    float time_of_day() const;
+    // Day ticks since the world began (world/day_clock.h); runs on smoothly between the server's messages.
+    double day_ticks() const;
+    float time_of_day() const; // 0..24000
     u64 seed() const { return seed_; }
     ReplicaStats stats() const;
 
@@ -203,8 +204,7 @@ private:
     std::vector<std::string> hotbar_;
     u32 hotbar_selected_ = 0;
     std::vector<net::Notice> notices_;
-    u32 time_of_day_ = 0;
-    u64 time_heard_ns_ = 0;
+    DayClock day_clock_;
     u64 seed_ = 0;
     u64 section_bytes_ = 0, section_bytes_told_ = 0;
     ReplicaStats stats_;

@@ -21,6 +21,10 @@ bool sound(const DimensionInfo& info) {
            info.max_y <= kWorldEdge && i64(info.max_y) - info.min_y <= 65536;
 }
 
+double seconds_now() {
+    return double(now_ns()) * 1e-9;
+}
+
 } // namespace
 
 bool Replica::poll(std::size_t most) {
@@ -86,8 +90,7 @@ Result<> Replica::take(net::Welcome& message) {
     view_distance_ = message.view_distance;
     hotbar_ = std::move(message.hotbar);
     hotbar_selected_ = message.hotbar_selected;
-    time_of_day_ = message.time_of_day;
-    time_heard_ns_ = now_ns();
+    day_clock_.hear(u64(message.day) * kDayTicks + message.time_of_day, message.day_minutes, seconds_now());
     seed_ = message.seed;
     return {};
 }
@@ -250,8 +253,7 @@ Result<> Replica::take(net::EditResult& message) {
 }
 
 Result<> Replica::take(net::TimeOfDay& message) {
-    time_of_day_ = message.time_of_day;
-    time_heard_ns_ = now_ns();
+    day_clock_.hear(u64(message.day) * kDayTicks + message.time_of_day, message.day_minutes, seconds_now());
     return {};
 }
 
@@ -265,10 +267,12 @@ Result<> Replica::take(net::Goodbye& message) {
     return {};
 }
 
+double Replica::day_ticks() const {
+    return day_clock_.ticks(seconds_now());
+}
+
 float Replica::time_of_day() const {
-    const double seconds = std::min(seconds_since(time_heard_ns_), 10.0);
-    const double time = time_of_day_ + seconds * 20;
-    return float(time >= 24000 ? time - 24000 : time);
+    return float(std::fmod(day_ticks(), double(kDayTicks)));
 }
 
 } // namespace vitrail::replica

@@ -1,9 +1,11 @@
-// FrameView: everything a renderer needs to know of one frame, plain data. The raster renderer and the path tracer take the
-// same. A portal seen is one more View; view 0 is the camera.
+// FrameView: everything a renderer needs to know of one frame, plain data. The raster renderer and the path tracer take
+// the same. A portal seen is one more View; view 0 is the camera.
 #pragma once
 
 #include "math/mat.h"
 #include "math/vec.h"
+#include "scene/sky_table.h"
+#include "scene/spherical_harmonics.h"
 #include "voxel/coords.h"
 
 #include <vector>
@@ -13,30 +15,33 @@ namespace vitrail::scene {
 // One place looked from. Every pixel of the G-buffer carries the number of the view it belongs to.
 struct View {
     Located<WorldPos> eye;
-    Mat4 rotation;          // world directions to view space (right, up, -forward); no translation: all is camera-relative
-    float fov_y = 1.2217f;  // radians
-    float scale = 1;        // blocks of this view's dimension a block of view 0
+    Mat4 rotation; // world directions to view space (right, up, -forward); no translation: all is camera-relative
+    float fov_y = 1.2217f;       // radians
+    float scale = 1;             // blocks of this view's dimension a block of view 0
     Vec4 clip_plane{0, 0, 0, 1}; // camera-relative plane (n, d): drawn where n.p + d >= 0; the default keeps all
-    u8 parent = 0;          // view it is seen from
-    bool mirrored = false;  // winding turns
-    bool underwater = false; // the eye is inside a liquid
-    float open_air = 1;     // 0..1, of view 0: how open to the sky the eye stands; air in the dark does not shine
+    u8 parent = 0;               // view it is seen from
+    bool mirrored = false;       // winding turns
+    bool underwater = false;     // the eye is inside a liquid
+    float open_air = 1;          // 0..1, of view 0: how open to the sky the eye stands; air in the dark does not shine
 };
 
-// Light and color of the sky, linear RGB, from the time of day (sky.h).
+// Light and color of the sky, linear RGB in the unit of sky.h, which makes it from the time of day.
 struct SkyState {
-    float time = 6000;      // 0..24000, 6000 noon
+    float time = 6000;           // 0..24000, 6000 noon
     Vec3 sun_direction{0, 1, 0}; // towards the sun
     Vec3 moon_direction{0, -1, 0};
-    Vec3 sun_light;         // direct light of sun or moon, whichever is up
-    Vec3 ambient;           // light of the sky on an open surface
-    Vec3 zenith, horizon;   // colors of the dome
-    Vec3 fog;               // color that far land fades to
-    float stars = 0;        // 0..1
-    Vec3 glow;              // light scattered around the sun at dawn and dusk
-    // Light of the whole sky on a surface, by its direction n: nine harmonics in the order 1, y, z, x, xy, yz, 3zz - 1,
-    // xz, xx - yy, constants taken in (sky.h: sky_irradiance).
-    Vec3 irradiance[9]{};
+    u32 moon_phase = 0;       // 0 full, 2 waning half, 4 new, 6 waxing half; of 8
+    Vec3 pole{0, 0, 1};       // unit: what sun, moon and stars turn about
+    float star_turn = 0;      // radians that they have turned
+    float stars = 0;          // 0..1, how much of them shows
+    Vec3 sun_light;           // direct light of sun or moon, whichever is up; 0 where they take over from each other
+    Vec3 sun_disc, moon_disc; // colors of the discs; discs.glsl says how bright the parts are
+    Vec3 cloud_light;         // direct light at the height of clouds
+    Vec3 cloud_direction{0, 1, 0}; // towards where it comes from; it changes while there is none
+    Vec2 sun_azimuth{1, 0};        // unit (x, z): the column 0 of `dome` points there
+    SkyTable dome;                 // clear sky without discs, stars and clouds
+    Irradiance irradiance;         // of the dome and of the ground it lights, over pi; without the direct light
+    Vec3 ambient;                  // irradiance on a surface that faces up
 };
 
 // Boxes outlined in the world: the picked block. Boxes are relative to the block's least corner, in blocks.

@@ -44,6 +44,9 @@ Result<std::shared_ptr<ColumnBatches>> open_device(const std::string& name, std:
 
 Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, const Content& content) {
     const std::shared_ptr<const BlockRegistry> registry = content.registry;
+    if (options.day_minutes && *options.day_minutes > kMostDayMinutes)
+        return fail(ErrorCode::invalid_argument,
+                    fmt::format("a day takes 0 to {} minutes, not {}", kMostDayMinutes, *options.day_minutes));
     auto world = std::make_unique<ServerWorld>();
     world->registry = registry;
     world->registry_bytes = net::encode_registry(*registry);
@@ -72,6 +75,10 @@ Result<std::unique_ptr<ServerWorld>> open_world(ServerOptions options, const Con
     } else {
         VX_TRY_ASSIGN(world->level,
                       make_new_level(*world->records, options.name, seed, generator->get(), world->content_hash));
+    }
+    if (options.day_minutes && world->level.day_minutes != *options.day_minutes) {
+        world->level.day_minutes = *options.day_minutes;
+        world->level_dirty = true;
     }
     if (world->level.content_hash != world->content_hash) {
         world->level.content_hash = world->content_hash;

@@ -45,6 +45,8 @@ struct ServerOptions {
     std::string generator = "endless"; // of a new world; "" makes an empty one
     std::string device = "cpu";      // that makes land: "cpu", "cuda" (or an error), "auto" (a GPU where there is one)
     std::string name = "World";        // of a new world
+    // How long a day takes, minutes of real time, 0 (time stands still) to 1440; kept with the world. None: as it is there.
+    std::optional<u32> day_minutes;
     bool read_only = false;            // takes no lock on the folder and keeps nothing; the world must exist
     std::optional<StartPlace> start;
     unsigned threads = 1; // workers that load and generate; 0: inside the tick
@@ -74,7 +76,8 @@ struct ServerWorld;
 class Server {
 public:
     // Errors: the store's (not_found, busy, damaged, unsupported, io); unsupported, where the world's generator is not
-    // known here (the world is left as it is); those of the terrain's description.
+    // known here (the world is left as it is); those of the terrain's description; invalid_argument, a day of more
+    // than 1440 minutes.
     static Result<std::unique_ptr<Server>> open(ServerOptions options, const Content& content);
     ~Server();
 

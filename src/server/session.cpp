@@ -66,7 +66,9 @@ void hear(ServerWorld& world, Session& session, net::Hello& hello) {
     }
     welcome.body = net::wire_body(session.body);
     welcome.tick = world.tick;
-    welcome.time_of_day = u32(world.level.time_ticks % 24000);
+    welcome.time_of_day = u32(world.level.time_ticks % kDayTicks);
+    welcome.day = u32(world.level.time_ticks / kDayTicks);
+    welcome.day_minutes = world.level.day_minutes;
     welcome.content_hash = world.content_hash;
     welcome.view_distance = session.view_distance;
     welcome.hotbar = session.hotbar;

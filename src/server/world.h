@@ -52,6 +52,7 @@ struct ServerWorld {
     u64 content_hash = 0;
 
     LevelRecord level;
+    DayRunner day_runner;
     bool level_dirty = false;
     std::unique_ptr<WorldRecords> records;
     // The writer thread posts here; it must outlive that.

@@ -4,7 +4,8 @@ namespace vitrail::stored {
 
 Level to_stored(const LevelRecord& v) {
     return {v.name,       v.seed,      u32(v.spawn.dimension), v.spawn.at.x,   v.spawn.at.y, v.spawn.at.z, v.spawn_yaw,
-            v.time_ticks, v.generator, v.generator_version,    v.content_hash, v.source, v.unfinished};
+            v.time_ticks, v.generator, v.generator_version,    v.content_hash, v.source, v.unfinished,
+            v.day_minutes};
 }
 
 Dimension to_stored(const DimensionInfo& v) {
@@ -40,6 +41,7 @@ Result<LevelRecord> from_stored(const Level& v) {
     out.content_hash = v.content_hash;
     out.source = v.source;
     out.unfinished = v.unfinished;
+    out.day_minutes = v.day_minutes;
     return out;
 }
 

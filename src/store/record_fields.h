@@ -27,6 +27,7 @@ struct Level { // meta "level"
     u64 content_hash = 0;
     std::string source;
     bool unfinished = false;
+    u32 day_minutes = kUsualDayMinutes;
     static constexpr auto fields = std::tuple{field<1>("name", &Level::name, {.most = 1024}),
                                               field<2>("seed", &Level::seed),
                                               field<3>("spawn_dimension", &Level::spawn_dimension),
@@ -39,7 +40,9 @@ struct Level { // meta "level"
                                               field<10>("generator_version", &Level::generator_version),
                                               field<11>("content_hash", &Level::content_hash),
                                               field<12>("source", &Level::source, {.most = 4096}),
-                                              field<13>("unfinished", &Level::unfinished)};
+                                              field<13>("unfinished", &Level::unfinished),
+                                              field<14>("day_minutes", &Level::day_minutes,
+                                                        {.most_value = kMostDayMinutes})};
 };
 
 struct Dimension { // dimension, by id

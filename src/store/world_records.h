@@ -17,6 +17,7 @@
 #include "store/world_store.h"
 #include "voxel/chunk_codec.h"
 #include "world/biome_table.h"
+#include "world/day_clock.h"
 #include "world/dimension.h"
 #include "world/state_table.h"
 
@@ -32,6 +33,7 @@ struct LevelRecord {
     Located<BlockPos> spawn{};
     float spawn_yaw = 0;     // degrees
     u64 time_ticks = 0;      // since the world began; a day has 24000
+    u32 day_minutes = kUsualDayMinutes; // how long a day takes, of real time, 0..kMostDayMinutes; 0: time stands still
     std::string generator{}; // "" : none, never-made chunks stay absent
     u32 generator_version = 0;
     u64 content_hash = 0; // of the content it was last played with

@@ -49,7 +49,7 @@ std::vector<ServerMessage> server_messages(Rng& rng) {
     Welcome welcome;
     welcome.player = rng.below(100), welcome.body = random_body(rng), welcome.tick = rng.next();
     welcome.dimensions = {{0, "minecraft:overworld", -64, 320, true}, {1, random_text(rng, 20), 0, 128, false}};
-    welcome.time_of_day = rng.below(24000), welcome.content_hash = rng.next(), welcome.view_distance = 12;
+    welcome.time_of_day = rng.below(24000), welcome.day = rng.below(9999), welcome.day_minutes = rng.below(1441), welcome.content_hash = rng.next(), welcome.view_distance = 12;
     welcome.hotbar = {"a", random_text(rng, 30)}, welcome.hotbar_selected = rng.below(9), welcome.seed = rng.next();
     all.emplace_back(welcome);
     all.emplace_back(RegistryData{Bytes(rng.below(300), 7)});
@@ -64,7 +64,7 @@ std::vector<ServerMessage> server_messages(Rng& rng) {
     all.emplace_back(LightChanges{0, random_deltas(rng)});
     all.emplace_back(EditResult{rng.below(1000), EditOutcome::kept, random_text(rng, 100)});
     all.emplace_back(BodyState{rng.below(1000), random_body(rng)});
-    all.emplace_back(TimeOfDay{rng.next(), rng.below(24000)});
+    all.emplace_back(TimeOfDay{rng.next(), rng.below(24000), u32(rng.next()), rng.below(1441)});
     all.emplace_back(Notice{random_text(rng, 30), random_text(rng, 200)});
     all.emplace_back(Goodbye{random_text(rng, 200)});
     return all;

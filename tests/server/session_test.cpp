@@ -226,6 +226,51 @@ TEST(Session, AClientThatDoesNotReadIsDropped) {
     EXPECT_TRUE(play.world().sessions.empty());
 }
 
+// How long a day takes is the world's: set at a start, kept, told to clients.
+TEST(Session, DaysTakeWhatTheWorldSays) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("vitrail-day-" + std::to_string(::getpid()));
+    std::filesystem::remove_all(folder);
+    server::ServerOptions options;
+    options.folder = folder.string(), options.seed = 7, options.threads = 0, options.generator = "";
+    const auto ticks_in = [&](std::optional<u32> minutes, u32 server_ticks) -> u64 {
+        options.day_minutes = minutes;
+        auto server = server::Server::open(options, base_content());
+        EXPECT_TRUE(server) << (server ? "" : server.error().message);
+        if (!server) return ~u64(0);
+        const u64 before = (*server)->world().level.time_ticks;
+        for (u32 i = 0; i < server_ticks; ++i)
+            (*server)->tick_once();
+        const u64 passed = (*server)->world().level.time_ticks - before;
+        EXPECT_TRUE((*server)->stop());
+        return passed;
+    };
+    EXPECT_EQ(ticks_in({}, 60), 60u);
+    EXPECT_EQ(ticks_in(1, 60), 1200u);
+    EXPECT_EQ(ticks_in({}, 30), 600u) << "kept";
+    EXPECT_EQ(ticks_in(1440, 144), 2u);
+    EXPECT_EQ(ticks_in(0, 60), 0u);
+    EXPECT_EQ(ticks_in({}, 60), 0u) << "0 is kept too";
+    options.day_minutes = 1441;
+    const auto refused = server::Server::open(options, base_content());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::invalid_argument);
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Session, ClientsSeeTheSunWhereTheServerHasIt) {
+    Play play;
+    play.world().level.time_ticks = 5 * 24000 + 11000;
+    play.world().level.day_minutes = 0;
+    auto& client = play.join("alice");
+    EXPECT_EQ(client.day_ticks(), 5 * 24000 + 11000);
+    EXPECT_EQ(client.time_of_day(), 11000);
+    play.world().level.day_minutes = 20;
+    play.tick(200); // ten seconds at once: far off, so it counts when it is heard
+    EXPECT_NEAR(client.day_ticks(), double(play.world().level.time_ticks), 101);
+    EXPECT_GE(client.day_ticks(), 5 * 24000 + 11090);
+}
+
 // Of a world whose generator is gone nothing may be made anew, nor may it be lost.
 TEST(Session, AWorldOfAnUnknownGeneratorIsRefusedAndLeftAsItIs) {
     const std::filesystem::path folder =

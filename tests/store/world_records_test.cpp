@@ -18,6 +18,7 @@ TEST(WorldRecords, KeepsEverythingOverAReopening) {
     level.seed = 0xfedcba9876543210;
     level.spawn = {DimensionId(1), {-5, 70, 2147483000}};
     level.time_ticks = 123456789;
+    level.day_minutes = 45;
     level.generator = "hills";
     level.generator_version = 3;
     level.content_hash = 77;
@@ -63,6 +64,7 @@ TEST(WorldRecords, KeepsEverythingOverAReopening) {
     EXPECT_EQ(l.seed, level.seed);
     EXPECT_EQ(l.spawn, level.spawn);
     EXPECT_EQ(l.time_ticks, level.time_ticks);
+    EXPECT_EQ(l.day_minutes, 45u);
     EXPECT_EQ(l.generator_version, 3u);
     const auto dimensions = *world->load_dimensions();
     ASSERT_EQ(dimensions.size(), 2u);

@@ -5,9 +5,8 @@ vec3 apply_fog(vec3 color, float away, vec3 towards, float underwater, float sky
     float x2 = x * x;
     float far = clamp(x2 * x2 * 0.90 + 0.12 * x2, 0.0, 1.0) * (1.0 - background.w);
     // Land fades into the very sky behind it, else hills at the edge of view stand out pale. Below the horizon: its color.
-    vec3 level = vec3(towards.x, max(towards.y, 0.0), towards.z);
     // Black between the walls of a cave.
-    vec3 air = sky_dome(level * inversesqrt(max(dot(level, level), 1e-6))) * max(ambient.w, sky * sky);
+    vec3 air = sky_dome(towards) * max(ambient.w, sky * sky);
     color = mix(color, air, far);
     // Water takes red first.
     vec3 through = exp2(-away * vec3(0.13, 0.050, 0.036) * underwater);

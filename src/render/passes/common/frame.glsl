@@ -16,9 +16,7 @@ layout(std140, binding = 0) uniform Frame {
     vec4 light_direction; // of the direct light: sun or moon
     vec4 sun_light;
     vec4 ambient;         // w: how open to the sky the eye stands
-    vec4 zenith;
-    vec4 horizon;
-    vec4 glow;
+    vec4 sky_azimuth;     // xy: unit (x, z), where the sun stands; see common/sky.glsl
     vec4 screen;          // width, height, 1 / width, 1 / height
     vec4 misc;            // seconds, 1 / view distance, exposure, star and cloud turn (radians)
     vec4 background;      // w: 1 where it replaces the sky (tests)

@@ -1,11 +1,8 @@
-// The dome; scene::sky_color is the same in C++ (a test compares them).
+// The clear dome without sun, moon, stars and clouds: a small table that the CPU fills (scene/sky_table.h says how it is
+// laid out; scene::sky_color is the same in C++ and a test compares them). Needs frame.glsl. d: any length.
+layout(binding = 9) uniform sampler2D t_sky;
 vec3 sky_dome(vec3 d) {
-    float low = 1.0 - max(d.y, 0.0);
-    float low2 = low * low;
-    float low4 = low2 * low2;
-    vec3 color = mix(zenith.rgb, horizon.rgb, low4 * (0.35 + 0.65 * low2));
-    float near_sun = max(dot(d, sun_direction.xyz), 0.0);
-    float n2 = near_sun * near_sun;
-    float n8 = n2 * n2 * n2 * n2;
-    return color + glow.rgb * (low4 * (0.30 * n2 + 0.70 * n8));
+    float along = dot(d.xz, sky_azimuth.xy) * inversesqrt(max(dot(d.xz, d.xz), 1e-8));
+    vec2 place = sqrt(clamp(vec2(0.5 - 0.5 * along, d.y), 0.0, 1.0));
+    return textureLod(t_sky, place * vec2(47.0 / 48.0, 31.0 / 32.0) + vec2(0.5 / 48.0, 0.5 / 32.0), 0.0).rgb;
 }

@@ -1,28 +1,73 @@
 #include "render/passes/sky/sky_pass.h"
 
 #include "render/passes/screen_pass.h"
+#include "render/passes/sky/cloud_texture.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 namespace vitrail::render {
 
+using scene::SkyState;
+using scene::SkyTable;
+
+// The same numbers stand in sky.frag.glsl.
+enum Place : GLint { sun_disc = 0, moon_disc = 1, sky_pole = 2, cloud_light = 3, cloud_direction = 4 };
+
 Result<> SkyPass::build(const BuildContext& context) {
-    VX_TRY_ASSIGN(day_, context.shaders.program("common/screen.vert.glsl", "sky/sky.frag.glsl"));
-    VX_TRY_ASSIGN(night_, context.shaders.program("common/screen.vert.glsl", "sky/sky.frag.glsl", {"NIGHT"}));
+    std::vector<std::string> defines{fmt::format("CLOUDS {}", context.effects.sky.clouds)};
+    VX_TRY_ASSIGN(day_, context.shaders.program("common/screen.vert.glsl", "sky/sky.frag.glsl", defines));
+    defines.push_back("NIGHT");
+    if (context.effects.sky.stars) defines.push_back("STARS");
+    VX_TRY_ASSIGN(night_, context.shaders.program("common/screen.vert.glsl", "sky/sky.frag.glsl", defines));
+    if (!clouds_) clouds_ = make_cloud_texture();
+    for (gfx::Texture& dome : domes_) {
+        if (dome) continue;
+        dome = gfx::make_texture_2d(GL_RGBA16F, SkyTable::kWidth, SkyTable::kHeight);
+        gfx::set_filter(dome, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    }
     return {};
 }
 
 void SkyPass::declare(DeclareContext& c) {
-    c.graph.add_pass({"sky",
-                      {},
-                      {"color"},
-                      [this](const gfx::PassContext&) {
-                          const scene::SkyState& sky = frame_->frame->sky;
-                          const bool night = sky.stars > 0 || sky.moon_direction.y > -0.15f;
-                          glBindTextureUnit(u32(Unit::noise), frame_->noise);
-                          draw_screen(night ? *night_ : *day_, frame_->plain_array, ScreenArea::background, {});
-                      },
-                      "depth"});
+    c.graph.add_pass({"sky", {}, {"color"}, [this](const gfx::PassContext&) { draw(); }, "depth"});
+}
+
+void SkyPass::prepare(FrameContext& frame) {
+    const SkyState& sky = frame.frame->sky;
+    if (sky.time != dome_time_ || sky.moon_phase != dome_phase_) {
+        dome_ = (dome_ + 1) % u32(domes_.size());
+        dome_time_ = sky.time, dome_phase_ = sky.moon_phase;
+        static_assert(sizeof(Vec3) == 12);
+        glTextureSubImage2D(domes_[dome_].name(), 0, 0, 0, SkyTable::kWidth, SkyTable::kHeight, GL_RGB, GL_FLOAT,
+                            sky.dome.texels);
+    }
+    glBindTextureUnit(u32(Unit::sky), domes_[dome_].name());
+    glBindSampler(u32(Unit::sky), 0);
+}
+
+void SkyPass::draw() const {
+    const SkyState& sky = frame_->frame->sky;
+    // Stars fade and the moon sets before the program changes: nobody sees it change.
+    const bool night = sky.stars > 0 || sky.moon_direction.y > -0.15f;
+    const gfx::Program& program = night ? *night_ : *day_;
+    const auto set = [&](Place place, Vec3 v, float w) { glProgramUniform4f(program.name(), place, v.x, v.y, v.z, w); };
+    constexpr float kEighth = 0.785398163f;
+    set(sun_disc, sky.sun_disc, 0);
+    if (night) {
+        set(moon_disc, sky.moon_disc, float(sky.moon_phase) * kEighth);
+        set(sky_pole, sky.pole, sky.star_turn);
+    }
+    if (frame_->effects->sky.clouds != i32(Clouds::off)) {
+        set(cloud_light, sky.cloud_light, 0);
+        set(cloud_direction, sky.cloud_direction, 0);
+    }
+    glBindTextureUnit(u32(Unit::noise), clouds_.name());
+    draw_screen(program, frame_->plain_array, ScreenArea::background, {});
+}
+
+u64 SkyPass::gpu_bytes() const {
+    return clouds_.bytes() + domes_[0].bytes() * domes_.size();
 }
 
 } // namespace vitrail::render
