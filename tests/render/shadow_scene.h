@@ -46,7 +46,7 @@ protected:
         frame.sky.sun_direction = sun, frame.sky.moon_direction = -sun;
         frame.sky.sun_light = {1, 1, 1};
         frame.sky.ambient = {};
-        for (Vec3& c : frame.sky.irradiance)
+        for (Vec3& c : frame.sky.irradiance.c)
             c = {};
         return frame;
     }
