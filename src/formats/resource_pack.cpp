@@ -62,9 +62,15 @@ Result<std::shared_ptr<const ResourcePack>> ResourcePack::open(const fs::path& p
         int code = 0;
         pack->zip_ = std::make_unique<Zip>();
         pack->zip_->archive = zip_open(path.c_str(), ZIP_RDONLY, &code);
-        if (!pack->zip_->archive)
-            return fail(code == ZIP_ER_OPEN || code == ZIP_ER_READ ? ErrorCode::io : ErrorCode::damaged,
-                        fmt::format("{}: is no resource pack: neither a folder nor a zip", path.string()));
+        if (!pack->zip_->archive) {
+            zip_error_t reason;
+            zip_error_init_with_code(&reason, code);
+            const std::string why = zip_error_strerror(&reason);
+            zip_error_fini(&reason);
+            return fail(
+                code == ZIP_ER_OPEN || code == ZIP_ER_READ ? ErrorCode::io : ErrorCode::damaged,
+                fmt::format("{}: is no resource pack, neither a folder nor a sound zip: {}", path.string(), why));
+        }
         VX_TRY(pack->list_zip(report));
     }
     if (const auto done = pack->finish(report); !done)

@@ -20,6 +20,9 @@ namespace vitrail::scene {
 namespace {
 
 constexpr u64 kSways = 1ull << 59, kLiquidFlag = 1ull << 60, kNeverMipped = 1ull << 61;
+// A pack's state of more quads, all its looks together, is drawn in content's shape: a section of them must be drawn at
+// all.
+constexpr std::size_t kMaxPackQuads = 4096;
 constexpr u32 kUnknownTints = 48; // hues for blocks that content does not know
 
 template <class T>
@@ -284,6 +287,7 @@ bool BlockModels::compile_from_packs(const StateTable& states, u32 id) {
 
     StateModel model;
     const auto add = [&](const PackQuad& q) {
+        if (model.quads.size() >= kMaxPackQuads) return false;
         const u32 at = impl.intern(q.geometry);
         if (at == kMaxModelQuads) return false;
         const ModelPass pass = pass_of(impl.packs->alpha(q.texture), look.layer);

@@ -150,6 +150,7 @@ std::string glow_suffix(const ResourcePack& pack) {
 
 std::optional<TextureArt> load_art(const ResourcePack& pack, const std::string& path, const std::string& glow,
                                    const ArtLimits& limits, PackReport& report) {
+    u64 decoded = 0;
     const auto picture = [&](const std::string& file) -> std::optional<Image> {
         if (!pack.contains(file)) return std::nullopt;
         Result<Bytes> bytes = pack.read(file, ArtLimits::kMaxPictureBytes);
@@ -157,6 +158,7 @@ std::optional<TextureArt> load_art(const ResourcePack& pack, const std::string& 
         Result<Image> image = decode_png(*bytes);
         if (!image)
             return report.say(fmt::format("{}: {}: {}", pack.info().name, file, image.error().message)), std::nullopt;
+        decoded += image->pixels.size();
         return std::move(*image);
     };
     std::optional<Image> albedo = picture(path + ".png");
@@ -228,6 +230,7 @@ std::optional<TextureArt> load_art(const ResourcePack& pack, const std::string& 
         art.emission = std::move(emission);
     }
     art.alpha = alpha_kind(art.albedo);
+    art.decoded_bytes = decoded;
     return art;
 }
 

@@ -25,6 +25,7 @@ struct TextureArt {
     bool interpolate = false;
     AlphaKind alpha = AlphaKind::full;
     bool tint_mask = false; // alpha says how much of its tint a texel takes, and nothing of holes
+    u64 decoded_bytes = 0;  // what reading it took, before pictures were brought to their size
     bool old_names = false; // of a pack before 1.13, which paints water blue
     u32 side() const { return albedo.width; }
     u32 frames() const { return albedo.width ? albedo.height / albedo.width : 0; }

@@ -44,7 +44,7 @@ struct PackLooks::Loader {
     std::unordered_map<std::string, TextureId> made;          // by recipe
     std::unordered_map<std::string, const BakedModel*> baked; // null: not to be had
     std::set<std::string> missing;
-    u64 art_bytes = 0;
+    u64 art_bytes = 0, decoded_bytes = 0;
     bool out_of_memory = false, out_of_layers = false, out_of_quads = false;
 
     Loader(PackLooks& o, const PackStack& p, const BlockRegistry& r, const PackLimits& l)
@@ -78,6 +78,11 @@ struct PackLooks::Loader {
 
     // The topmost picture of this name. Its maps come from the same pack.
     std::optional<TextureArt> find_art(const std::string& space, const std::string& path) {
+        if (decoded_bytes > limits.decoded_bytes_most) {
+            if (!std::exchange(out_of_memory, true))
+                out.report_.say(fmt::format("pictures of packs take too long: those from {} on are left out", path));
+            return std::nullopt;
+        }
         for (auto it = packs.packs().rbegin(); it != packs.packs().rend(); ++it) {
             const ResourcePack& pack = **it;
             std::vector<std::string> files{path};
@@ -89,7 +94,9 @@ struct PackLooks::Loader {
                 const auto suffix = glow.try_emplace(&pack, std::string()).first;
                 if (suffix->second.empty()) suffix->second = glow_suffix(pack);
                 std::optional<TextureArt> art = load_art(pack, whole, suffix->second, limits.art, out.report_);
-                if (art && afford(*art)) return art;
+                if (!art) continue;
+                decoded_bytes += art->decoded_bytes;
+                if (afford(*art)) return art;
             }
         }
         return std::nullopt;

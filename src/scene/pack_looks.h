@@ -21,9 +21,10 @@ namespace vitrail::scene {
 
 struct PackLimits {
     ArtLimits art;
-    u32 textures_most = 2048;          // layers: registry's and packs' together
-    u64 art_bytes_most = u64(1) << 30; // of decoded pictures
-    u64 quads_most = 1u << 20;         // of baked models
+    u32 textures_most = 2048;              // layers: registry's and packs' together
+    u64 art_bytes_most = u64(1) << 30;     // of decoded pictures
+    u64 decoded_bytes_most = u64(8) << 30; // of pictures before they are brought to their size: time, not memory
+    u64 quads_most = 1u << 20;             // of baked models
     std::size_t blockstates_most = 8192;
 };
 

@@ -20,6 +20,10 @@ expect_error("render", "--seed", "1", "--at", "0,80,0", "--look", "0,0", "--rend
 expect_error("render", "--seed", "1", "--at", "0,80,0", "--look", "0,0", "-o", SCRATCH / "nowhere/a.png", mention="nowhere")
 expect_error("render", "--world", SCRATCH / "none", "--at", "0,80,0", "--look", "0,0", "-o", SCRATCH / "a.png")
 expect(not (SCRATCH / "none").exists(), "render made a world folder")
+broken_pack = SCRATCH / "pack.zip"
+broken_pack.write_bytes(b"PK\x03\x04 this is no zip")
+for pack in (SCRATCH / "no_pack.zip", broken_pack, SCRATCH):
+    expect_error("render", "--seed", "1", "--at", "0,80,0", "--look", "0,0", "--pack", pack, "-o", SCRATCH / "a.png", mention=str(pack))
 expect_error("generate", "--columns", "0,0,1", mention="--columns")
 expect_error("generate", "--columns", "5,0,1,1", mention="--columns")
 expect_error("generate", "--columns", "0.5,0,1,1", mention="--columns")

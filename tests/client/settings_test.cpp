@@ -21,6 +21,9 @@ TEST(Settings, SurviveARoundTrip) {
     s.mouse_sensitivity = 2; // a whole number must stay a float
     s.invert_y = true;
     s.fullscreen = true;
+    s.packs = {"/a b/\"quoted\".zip", "C:\\back\\slash", "it's, ü"};
+    s.effects = vitrail::render::preset_effects(vitrail::render::Preset::low);
+    s.effects.exposure.automatic = !s.effects.exposure.automatic; // a table after the list
     ASSERT_TRUE(save_settings(path, s));
     const auto back = load_settings(path);
     ASSERT_TRUE(back);
