@@ -41,7 +41,11 @@ void SectionFeeder::set_packs(std::shared_ptr<const scene::PackLooks> packs) {
     tints_.clear();
     const u64 now = now_ns();
     in_flight_ = waiting_ = 0;
-    for (auto& [at, section] : sections_) section = {.mesh = true, .light = true, .dirty_since_ns = now - kQuietNs}, ++waiting_;
+    waiting_at_.clear();
+    for (auto& [at, section] : sections_) {
+        section = {};
+        mark(at, true, now - kQuietNs);
+    }
 }
 
 void SectionFeeder::mark(ChunkPos at, bool mesh, u64 now) {
