@@ -44,7 +44,7 @@ vec3 shadow_in(int i, vec3 place, vec3 face, vec2 turn) {
 #else
     // What stands in between?
     float search = clamp(128.0 * shadow_info.w, 1.5 * texel, kShadowWidest);
-    float blockers = 0.0, looked = 0.0, sum = 0.0;
+    float blockers = 0.0, sum = 0.0;
     vec2 d = turn;
     for (int k = 0; k < SHADOW_SEARCH; ++k) {
         vec2 aside = d * (sqrt((float(k) + 0.5) * (1.0 / float(SHADOW_SEARCH))) * search);
@@ -100,7 +100,11 @@ vec3 sun_visibility(vec3 place, vec3 face, float facing, float sky, uint view) {
     float beyond = clamp((away - shadow_info.x) * shadow_info.y + 1.0, 0.0, 1.0);
     if (view != 0u || beyond >= 1.0) return vec3(open_sky);
     // No sky, no sun: rays may pass the edge of the land that is loaded, or of what casts.
+#ifdef SHADOW_COLOR
     float some_sky = clamp(sky * 15.0, 0.0, 1.0);
+#else
+    float some_sky = clamp(sky * 1.6, 0.0, 1.0); // what no map knows of takes its share: water
+#endif
     if (some_sky <= 0.0 || dot(face, light_direction.xyz) <= 0.0) return vec3(0.0);
     float angle = shadow_noise() * 6.2831853;
     vec2 turn = vec2(cos(angle), sin(angle));
