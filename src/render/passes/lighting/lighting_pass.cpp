@@ -10,6 +10,8 @@ namespace vitrail::render {
 Result<> LightingPass::build(const BuildContext& context) {
     std::vector<std::string> defines = shadow_defines(context.effects);
     if (context.effects.ssao.on) defines.push_back("SSAO");
+    if (context.effects.shadows.samples > 1 && context.effects.antialias != i32(Antialias::taa))
+        defines.push_back("SHADOW_QUADS");
     VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "lighting/lighting.frag.glsl", defines));
     return {};
 }

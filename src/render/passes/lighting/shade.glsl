@@ -7,7 +7,7 @@ vec3 shade(Surface s, vec3 place, vec3 towards, uint view) {
     // light, and has no side.
     vec3 side = s.plant ? light_direction.xyz : s.face;
     vec3 asked = s.plant ? place + side * 0.3 : place;
-    vec3 sun = facing > 0.0 ? sun_light.rgb * sun_visibility(asked, side, facing, s.light.a, view) : vec3(0.0);
+    vec3 sun = sun_light.rgb * sun_visibility(asked, side, facing, s.light.a, view);
     // Two sides that both turn from the sun must still differ, or edges drown.
     float edge = 1.0 - 0.10 * abs(s.normal.x);
     float sky = s.light.a * sqrt(s.light.a);
