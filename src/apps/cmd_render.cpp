@@ -79,6 +79,9 @@ Result<> run_render(const RenderOptions& wanted) {
         fmt::print(stderr, "vitrail: info: {} textures are missing, the first is {}\n", missing,
                    still->renderer().missing_texture_names().front());
     if (options.stats_file.empty()) return {};
+    VX_TRY_ASSIGN(const auto times, still->time_passes(still_options.pose, size.first, size.second, options.time));
+    nlohmann::json passes_ms = nlohmann::json::object();
+    for (const auto& [pass, ms] : times) passes_ms[pass] = ms;
     const auto& frame = still->renderer().stats();
     const auto info = gfx::context_info();
     nlohmann::json stats = {{"seconds", {{"open", still->times().open_s}, {"world", still->times().world_s},
@@ -93,6 +96,7 @@ Result<> run_render(const RenderOptions& wanted) {
                                   {"gpu_bytes", frame.gpu_bytes},
                                   {"missing_textures", still->renderer().missing_textures()},
                                   {"peak_memory_bytes", peak_memory_bytes()},
+                                  {"passes_ms", passes_ms},
                                   {"device", info ? info->renderer : "unknown"}};
     if (const scene::PackLooks* packs = still->packs()) {
         const auto& c = packs->counts();

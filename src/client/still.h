@@ -44,6 +44,8 @@ public:
     Result<render::Image> draw_settled(const CameraPose& pose, u32 width, u32 height, float time, u32 frames = 8);
     // Without reading pixels back; finishes drawing. For timing.
     Result<> draw_only(const CameraPose& pose, u32 width, u32 height, float time);
+    // GPU milliseconds by pass, in the passes' order; the least of a few frames, drawn for it.
+    Result<std::vector<std::pair<std::string, double>>> time_passes(const CameraPose& pose, u32 width, u32 height, float time);
 
     render::Renderer& renderer() { return *renderer_; }
     const scene::PackLooks* packs() const { return packs_.get(); } // null without

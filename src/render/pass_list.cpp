@@ -2,6 +2,7 @@
 
 #include "render/passes/bloom/bloom_pass.h"
 #include "render/passes/exposure/exposure_pass.h"
+#include "render/passes/fog/fog_pass.h"
 #include "render/passes/fxaa/fxaa_pass.h"
 #include "render/passes/lighting/lighting_pass.h"
 #include "render/passes/outline/outline_pass.h"
@@ -29,6 +30,7 @@ std::vector<std::unique_ptr<RenderPass>> make_passes() {
     passes.push_back(std::make_unique<ReflectionsPass>());
     // What lets light through, and the air.
     passes.push_back(std::make_unique<WaterPass>());
+    passes.push_back(std::make_unique<FogPass>());
     passes.push_back(std::make_unique<OutlinePass>());
     // The eye.
     passes.push_back(std::make_unique<TaaPass>());

@@ -91,7 +91,7 @@ Result<ProgramRef> ShaderLibrary::compute_program(std::string_view compute, std:
 }
 
 fs::file_time_type ShaderLibrary::newest() const {
-    fs::file_time_type newest{};
+    auto newest = fs::file_time_type::min(); // the clock's zero lies in the future
     std::error_code error;
     for (fs::recursive_directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
         if (at->path().extension() != ".glsl") continue;

@@ -30,6 +30,32 @@ TEST(Settings, SurviveARoundTrip) {
     EXPECT_TRUE(*back == s);
 }
 
+TEST(Settings, KeepEffects) {
+    namespace render = vitrail::render;
+    const fs::path path = scratch("effects");
+    for (vitrail::u32 i = 0; i < vitrail::u32(render::Preset::count); ++i) {
+        Settings s;
+        s.effects = render::preset_effects(render::Preset(i));
+        ASSERT_TRUE(save_settings(path, s));
+        EXPECT_TRUE(load_settings(path)->effects == s.effects) << i;
+        // What a player changed is kept beside the preset, one of each kind.
+        ASSERT_TRUE(render::set_effect(s.effects, "exposure.bias", "-1.25"));
+        ASSERT_TRUE(render::set_effect(s.effects, "shadows.size", "512"));
+        ASSERT_TRUE(render::set_effect(s.effects, "water.waves", "false"));
+        ASSERT_TRUE(render::set_effect(s.effects, "antialias", "fxaa"));
+        s.effects = render::sane(s.effects);
+        ASSERT_TRUE(save_settings(path, s));
+        const auto back = load_settings(path);
+        ASSERT_TRUE(back);
+        EXPECT_TRUE(back->effects == s.effects) << i;
+    }
+    // Unknown effects and values that do not fit leave the preset's.
+    std::ofstream(path) << "quality = \"medium\"\n[effects]\n\"shadows.size\" = 99999999\nnonsense = 3\n\"bloom.on\" = \"perhaps\"\n";
+    const auto odd = load_settings(path);
+    ASSERT_TRUE(odd);
+    EXPECT_TRUE(odd->effects == render::preset_effects(render::Preset::medium));
+}
+
 TEST(Settings, NoFileMeansDefaults) { EXPECT_TRUE(*load_settings(scratch("none")) == Settings{}); }
 
 TEST(Settings, OddValuesAreHeldInRangeAndOddKeysLeftAlone) {

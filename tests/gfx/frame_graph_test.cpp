@@ -4,6 +4,7 @@
 #include "gfx/upload_ring.h"
 #include "platform/headless.h"
 
+#include <array>
 #include <cstring>
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -102,6 +103,105 @@ TEST_F(Graphics, TargetsFollowTheSize) {
         EXPECT_EQ(graph.target("color").width, width);
     }
     EXPECT_EQ(graph.target_bytes(), 1 * 40 * 4 + 1 * 20 * 8 + 1 * 40 * 4u);
+    EXPECT_EQ(take_gl_error(), "");
+}
+
+static float first_texel(const Texture& texture) {
+    std::vector<float> values(std::size_t(texture.width) * texture.height);
+    glGetTextureImage(texture.name(), 0, GL_RED, GL_FLOAT, GLsizei(values.size() * sizeof(float)), values.data());
+    return values[0];
+}
+
+// A target with history: what a frame wrote is "@before" in the next, and nothing is before the first.
+TEST_F(Graphics, HistoryIsTheFrameBefore) {
+    FrameGraph graph;
+    graph.add_target({.name = "sum", .format = GL_R32F, .history = true});
+    graph.add_target({.name = "one", .format = GL_R32F, .width = 1, .height = 1, .history = true});
+    float frame = 0;
+    std::vector<std::pair<bool, float>> seen;
+    graph.add_pass({"write",
+                    {"sum@before"},
+                    {"sum"},
+                    [&](const PassContext& c) {
+                        const bool known = c.graph.has_history("sum");
+                        seen.emplace_back(known, known ? first_texel(c.graph.target("sum@before")) : -1);
+                        glClearBufferfv(GL_COLOR, 0, std::array{++frame, 0.0f, 0.0f, 0.0f}.data());
+                    },
+                    ""});
+    graph.add_pass({"read",
+                    {"sum"},
+                    {"one"},
+                    [&](const PassContext& c) {
+                        EXPECT_EQ(c.width, 1u);
+                        EXPECT_EQ(first_texel(c.graph.target("sum")), frame); // of this frame
+                    },
+                    ""});
+    ASSERT_TRUE(graph.compile());
+    ASSERT_TRUE(graph.resize(8, 8));
+    for (int i = 0; i < 4; ++i)
+        graph.execute();
+    ASSERT_TRUE(graph.resize(9, 8)); // other textures: what was before is gone
+    EXPECT_FALSE(graph.has_history("sum"));
+    for (int i = 0; i < 2; ++i)
+        graph.execute();
+    const std::vector<std::pair<bool, float>> wanted{{false, -1}, {true, 1},   {true, 2},
+                                                     {true, 3},   {false, -1}, {true, 5}};
+    EXPECT_EQ(seen, wanted);
+    EXPECT_EQ(graph.target_bytes(), 2 * 9 * 8 * 4 + 2 * 4u);
+    EXPECT_EQ(take_gl_error(), "");
+    // Reading a past that is not kept is refused.
+    FrameGraph without;
+    without.add_target({.name = "a", .format = GL_R32F});
+    without.add_target({.name = "b", .format = GL_R32F});
+    without.add_pass(pass("one", {"a@before"}, {"b"}));
+    EXPECT_NE(refusal(without).find("a@before"), std::string::npos);
+}
+
+// Times come some frames later, for every pass in order, and never for passes of another list.
+TEST_F(Graphics, PassesAreTimed) {
+    FrameGraph graph;
+    const auto declare = [&](u32 passes) {
+        graph.clear();
+        for (u32 i = 0; i < passes; ++i) {
+            const std::string name = "p" + std::to_string(i);
+            graph.add_target({.name = name, .format = GL_RGBA16F});
+            graph.add_pass({name,
+                            {},
+                            {name},
+                            [i](const PassContext&) {
+                                for (u32 k = 0; k < 1 + 40 * i; ++k)
+                                    glClearBufferfv(GL_COLOR, 0, std::array{0.5f, 0.0f, 0.0f, float(k)}.data());
+                            },
+                            ""});
+        }
+        ASSERT_TRUE(graph.compile());
+        ASSERT_TRUE(graph.resize(256, 256));
+    };
+    declare(3);
+    graph.execute();
+    EXPECT_TRUE(graph.times_ms().empty()); // nobody asked
+    graph.set_timing(true);
+    for (int i = 0; i < 3; ++i) {
+        graph.execute();
+        glFinish();
+    }
+    graph.execute();
+    ASSERT_EQ(graph.times_ms().size(), 3u);
+    for (u32 i = 0; i < 3; ++i) {
+        EXPECT_EQ(graph.times_ms()[i].first, "p" + std::to_string(i));
+        EXPECT_GE(graph.times_ms()[i].second, 0.0);
+        EXPECT_LT(graph.times_ms()[i].second, 60000.0);
+    }
+    declare(2);
+    EXPECT_TRUE(graph.times_ms().empty());
+    for (int i = 0; i < 3; ++i) {
+        graph.execute();
+        glFinish();
+    }
+    graph.execute();
+    EXPECT_EQ(graph.times_ms().size(), 2u);
+    graph.set_timing(false);
+    EXPECT_TRUE(graph.times_ms().empty());
     EXPECT_EQ(take_gl_error(), "");
 }
 

@@ -63,6 +63,7 @@ TEST_F(RendererTest, EveryPlaceLooksTheSame) {
             ASSERT_TRUE(renderer);
             Effects effects = renderer->effects();
             effects.sky.clouds = i32(Clouds::off); // they hang in the world: other places have others
+            effects.fog.height = effects.fog.volumetric = false; // mist knows how high it lies
             ASSERT_TRUE(renderer->set_effects(effects));
             scene.give(*renderer, base);
             ASSERT_TRUE(renderer->load_textures(scene.registry));
@@ -282,6 +283,7 @@ TEST_F(RendererTest, SkyIsTheSameInBothLanguages) {
     auto renderer = make_renderer();
     Effects effects = renderer->effects();
     effects.sky.clouds = i32(Clouds::off), effects.sky.stars = false;
+    effects.fog.height = effects.fog.volumetric = false;
     ASSERT_TRUE(renderer->set_effects(effects));
     for (float time : {0.0f, 3000.0f, 6000.0f, 11800.0f, 12600.0f, 14000.0f, 18000.0f, 23500.0f})
         for (const auto& [yaw, pitch] :

@@ -11,7 +11,7 @@ namespace vitrail::render {
 struct ExposureCurve {
     float reference_log2 = -2.5f;     // log2 of the luminance that is left as it is: land at noon
     float slope = 0.45f;              // 1 would make day of every night
-    float least = -1.0f, most = 1.9f; // stops
+    float least = -1.0f, most = 2.0f; // stops
 };
 inline constexpr ExposureCurve kExposureCurve;
 // Eyes grow used to light faster than to darkness: the factor on Effects::Exposure::speed when exposure falls.

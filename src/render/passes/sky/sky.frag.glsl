@@ -3,6 +3,7 @@
 #include "common/frame.glsl"
 #include "common/sky.glsl"
 #include "common/ambient.glsl"
+#include "common/mist.glsl"
 
 layout(location = 0) in vec2 v_ndc;
 layout(binding = 10) uniform sampler2D t_clouds; // r: wide shapes, g: heaps; repeats
@@ -47,6 +48,8 @@ void main() {
     vec4 clouds = clouds_at(d, t_clouds, dither);
     color = color * clouds.a + clouds.rgb;
 #endif
+    // As land at the edge of view: no seam.
+    color = mist_over(color, 1.0 / misc.y, d, 0u, 1.0);
     // Under water one sees murk.
     vec3 murk = (ambient.rgb + sun_light.rgb * 0.25) * vec3(0.03, 0.16, 0.22);
     color = mix(color, murk, view.ray_up.w);
