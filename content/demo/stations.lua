@@ -774,7 +774,7 @@ place("wood", "volumetric", -4, FEET, 84, 268, -3, { time = 700, text = "Dawn: r
   without = "fog.volumetric=false" })
 place("belvedere", "fog", 0, FEET + 9, -80, 20, 8, { time = 500, text = "Morning haze lies in the low land.",
   without = "fog.height=false" })
-place("cave", "exposure", 84, FEET, -6, 92, -2, { time = 6000, text = "From the dark of the cave into daylight: the eye settles.",
+place("cave", "exposure", 84, FEET, -3, 101, -2, { time = 6000, text = "From the dark of the cave into daylight: the eye settles.",
   without = "exposure.automatic=false" })
 place("pier", "sunset", -82, SEA + 2, 15, 88, -4, { time = 11750, text = "The sun goes down behind the islands.",
   without = "sky.clouds=off" })
