@@ -538,14 +538,26 @@ do
   for _, c in ipairs { { 52, 30, "redstone_torch" }, { 46, 41, "redstone_torch" } } do set(c[1], FEET, c[2], c[3]) end
 end
 
--- The grove: leaves over pale paving -----------------------------------------------------------------------------------------------
+-- The grove and its arbor: leaves over pale paving -----------------------------------------------------------------------------------------------
 
 do
   level(-6, 24, 12, 48, FEET - 1, "grass_block", 22)
   for z = 22, 50 do for x = 0, 4 do set(x, FEET - 1, z, (x == 0 or x == 4) and "stone_bricks" or "smooth_stone") end end
   disc(2, 36, 5.2, function(x, z, d) set(x, FEET - 1, z, d > 4.4 and "stone_bricks" or "smooth_stone") end)
-  for _, t in ipairs { { -4, 26 }, { 8, 27 }, { -5, 34 }, { 9, 35 }, { -4, 43 }, { 8, 44 } } do
-    broad_tree(t[1], FEET, t[2], 5 + math.random(2), 4.1, pick { "oak", "birch" }, pick { "oak_leaves", "birch_leaves" })
+  for _, t in ipairs { { -5, 26 }, { 9, 27 }, { -6, 35 }, { 10, 36 }, { -5, 44 }, { 9, 45 } } do
+    broad_tree(t[1], FEET, t[2], 4 + math.random(2), 3, pick { "oak", "birch" }, pick { "oak_leaves", "birch_leaves" })
+  end
+  for z = 28, 44, 4 do -- an arbor: one layer of leaves on beams
+    for _, x in ipairs { -1, 5 } do
+      set(x, FEET, z, "stone_bricks")
+      fill(x, FEET + 1, z, x, FEET + 3, z, "spruce_fence")
+    end
+    fill(-1, FEET + 4, z, 5, FEET + 4, z, "stripped_spruce_log[axis=x]")
+  end
+  for z = 27, 45 do
+    for x = -1, 5 do
+      if z % 4 ~= 0 and noise(x, z, 2.3, 61) < .22 then set(x, FEET + 4, z, pick { "oak_leaves[persistent=true]", "flowering_azalea_leaves[persistent=true]" }) end
+    end
   end
 end
 
@@ -747,14 +759,14 @@ meadow(-57, -60, 62, 62, 5200, { "poppy", "dandelion", "cornflower", "oxeye_dais
 
 -- The stations ------------------------------------------------------------------------------------------------------------------------
 
-place("avenue", "shadows", 1, FEET, -15, 183, 6, { time = 2600,
+place("avenue", "shadows", -1, FEET, -14, 184, 5, { time = 2700,
   text = "Shadows of columns from at hand to far off: sharp edges, no seam where one cascade ends and the next begins.",
   without = "shadows.on=false" })
 place("needle", "penumbra", -41, FEET, -7, 264, 6, { time = 1900, text = "The needle's shadow is sharp at its foot and soft far off.",
   without = "shadows.softness=0" })
 place("chapel", "colored", 34, FEET, -13, 164, 4, { time = 2200, text = "Sunlight takes the color of the glass it passes.",
   without = "shadows.colored=false" })
-place("grove", "leaves", 2, FEET, 26, 4, 12, { time = 4600, text = "Leaves cast the shadows of leaves, not of cubes.",
+place("grove", "leaves", 2, FEET, 25, 5, 12, { time = 5000, text = "Leaves cast the shadows of leaves, not of cubes.",
   without = "shadows.on=false" })
 place("court", "ssao", 28, FEET, 24, 4, 16, { time = 6000, text = "Corners, steps and niches darken where the sky cannot reach.",
   without = "ssao.on=false" })
