@@ -785,7 +785,7 @@ place("cubes", "translucent", -21, FEET, 20, 28, 14, { time = 8000, text = "Glas
 place("wood", "volumetric", -4, FEET, 84, 268, -3, { time = 700, text = "Dawn: rays of light between the trees, mist in the valley.",
   without = "fog.volumetric=false" })
 place("belvedere", "fog", 0, FEET + 9, -80, 20, 8, { time = 500, text = "Morning haze lies in the low land.",
-  without = "fog.height=false" })
+  without = { "fog.height=false", "fog.volumetric=false" } })
 place("cave", "exposure", 84, FEET, -3, 101, -2, { time = 6000, text = "From the dark of the cave into daylight: the eye settles.",
   without = "exposure.automatic=false" })
 place("pier", "sunset", -82, SEA + 2, 15, 88, -4, { time = 11750, text = "The sun goes down behind the islands.",
