@@ -146,7 +146,8 @@ static void update_world(GameState& state, float seconds) {
 static Result<> draw(GameState& state) {
     replica::Replica& replica = state.game->replica();
     scene::FrameView frame = build_frame(camera(state), replica.dimension(), state.window->width(), state.window->height(),
-                                         replica.day_ticks(), replica.view_distance(), float(state.seconds));
+                                         replica.day_ticks(), replica.view_distance(), float(state.seconds),
+                                         water_tint_at(replica, block_of(camera(state).eye.at)));
     frame.gamma_exposure = state.settings.gamma;
     if (state.hit && !state.hide_ui) {
         scene::Outline outline;

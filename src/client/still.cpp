@@ -92,7 +92,8 @@ Result<> Still::wait_complete(const StillOptions& options) {
 }
 
 Result<> Still::draw_only(const CameraPose& pose, u32 width, u32 height, float time) {
-    const scene::FrameView frame = build_frame(pose, game_->replica().dimension(), width, height, time, view_distance_, 40);
+    const scene::FrameView frame = build_frame(pose, game_->replica().dimension(), width, height, time, view_distance_, 40,
+                                                water_tint_at(game_->replica(), block_of(pose.eye.at)));
     VX_TRY(renderer_->render(frame));
     glFinish();
     return {};

@@ -41,9 +41,11 @@ static Result<u32> compile(u32 stage, const ProgramSource& source, const std::st
     char log[4096] = {};
     glGetShaderInfoLog(shader, sizeof log - 1, nullptr, log);
     glDeleteShader(shader);
-    const char* stage_name = stage == GL_VERTEX_SHADER     ? "vertex"
-                             : stage == GL_FRAGMENT_SHADER ? "fragment"
-                                                           : "compute";
+    const char* stage_name = stage == GL_VERTEX_SHADER            ? "vertex"
+                             : stage == GL_FRAGMENT_SHADER        ? "fragment"
+                             : stage == GL_TESS_CONTROL_SHADER    ? "tessellation control"
+                             : stage == GL_TESS_EVALUATION_SHADER ? "tessellation evaluation"
+                                                                  : "compute";
     return fail(ErrorCode::invalid_argument,
                 fmt::format("{} shader of {}: {}", stage_name, source.name, explain(log, body)));
 }
@@ -55,6 +57,8 @@ Result<Program> build_program(const ProgramSource& source) {
             glDeleteShader(shader);
     };
     const std::pair<u32, const std::string*> stages[] = {{GL_VERTEX_SHADER, &source.vertex},
+                                                         {GL_TESS_CONTROL_SHADER, &source.control},
+                                                         {GL_TESS_EVALUATION_SHADER, &source.evaluation},
                                                          {GL_FRAGMENT_SHADER, &source.fragment},
                                                          {GL_COMPUTE_SHADER, &source.compute}};
     for (const auto& [stage, body] : stages) {

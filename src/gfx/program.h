@@ -14,8 +14,9 @@ namespace vitrail::gfx {
 struct ProgramSource {
     std::string name;                 // for messages: the pass
     std::string vertex, fragment;     // GLSL 4.50 without #version
-    std::string compute;              // instead of the two others
+    std::string compute;              // instead of all others
     std::vector<std::string> defines; // "NAME" or "NAME VALUE"
+    std::string control{}, evaluation{}; // tessellation between vertex and fragment, both or none
 };
 
 // Errors: invalid_argument with the driver's log, the lines it names and the program's name.

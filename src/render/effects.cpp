@@ -36,6 +36,7 @@ const EffectOption kOptions[] = {
     {"bloom.strength", "Strength", "Share of the light that spreads.", VX_EFFECT(bloom.strength), 0, 0.5f, {0.05f, 0.05f, 0.05f, 0.05f, 0.05f}},
     {"water.waves", "Waves", "The surface moves.", VX_EFFECT(water.waves), 0, 1, {0, 1, 1, 1, 1}},
     {"water.wave_height", "Wave height", "In blocks.", VX_EFFECT(water.wave_height), 0, 0.1f, {0.06f, 0.06f, 0.06f, 0.06f, 0.06f}},
+    {"water.swell", "Swell", "Waves near the eye bend the surface.", VX_EFFECT(water.swell), 0, 1, {0, 0, 0, 1, 1}},
     {"water.refraction", "Refraction", "What lies under water is seen through its waves.", VX_EFFECT(water.refraction), 0, 1, {0, 0, 1, 1, 1}},
     {"water.caustics", "Caustics", "Waves gather the sun on the ground below.", VX_EFFECT(water.caustics), 0, 1, {0, 0, 0, 1, 1}},
     {"fog.height", "Mist", "Fog that lies in the valleys, most in the morning.", VX_EFFECT(fog.height), 0, 1, {0, 1, 1, 1, 1}},

@@ -53,7 +53,7 @@ struct Effects {
         bool operator==(const Bloom&) const = default;
     } bloom;
     struct Water {
-        bool waves = true, refraction = false, caustics = false;
+        bool waves = true, swell = false, refraction = false, caustics = false;
         float wave_height = 0.06f; // blocks
         bool operator==(const Water&) const = default;
     } water;

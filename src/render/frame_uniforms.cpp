@@ -13,8 +13,29 @@ static Mat4 projection(const scene::View& view, float aspect) {
     return perspective_reversed_infinite(view.fov_y, aspect, kNearPlane) * view.rotation;
 }
 
+static float mean(Vec3 v) {
+    return (v.x + v.y + v.z) * (1.0f / 3.0f);
+}
+
+// Light in a liquid: what comes down from the surface dims by 0.7 of the extinction a block (much of what is scattered
+// goes on downwards), and the share that scatters of what is taken turns towards the eye.
+static void set_medium(ViewUniforms& u, const scene::View& view, const scene::SkyState& sky) {
+    const scene::Medium& m = view.medium;
+    const Vec3 lost = m.absorption + m.scattering;
+    u.medium = with(lost, m.depth);
+    const float high = std::max(std::abs(sky.sun_direction.y), 0.0f);
+    const Vec3 light = (sky.ambient + sky.sun_light * high) * m.open + Vec3{1, 1, 1} * (0.012f * mean(m.scattering) * 30);
+    const auto murk = [&](float scatter, float extinct, float from_above, float glow) {
+        if (extinct <= 0) return 0.0f;
+        return glow +
+               from_above * kWaterPhase * scatter / extinct * std::exp(-0.7f * extinct * std::min(m.depth, 60.0f));
+    };
+    u.murk = {murk(m.scattering.x, lost.x, light.x, m.glow.x), murk(m.scattering.y, lost.y, light.y, m.glow.y),
+              murk(m.scattering.z, lost.z, light.z, m.glow.z), m.open};
+}
+
 static ViewUniforms view_uniforms(const scene::View& view, const scene::View* before, u32 width, u32 height,
-                                  Vec2 jitter) {
+                                  Vec2 jitter, const scene::SkyState& sky) {
     const float aspect = float(width) / float(height), t = std::tan(view.fov_y * 0.5f);
     const auto& m = view.rotation.m;
     const Vec3 right{m[0], m[4], m[8]}, up{m[1], m[5], m[9]}, forward{-m[2], -m[6], -m[10]};
@@ -37,17 +58,18 @@ static ViewUniforms view_uniforms(const scene::View& view, const scene::View* be
     u.ray_forward = with(forward - right * (t * aspect * shift.x) - up * (t * shift.y), view.scale);
     const BlockPos eye = block_of(view.eye.at);
     u.eye_block = {eye.x, eye.y, eye.z, 0};
+    set_medium(u, view, sky);
     return u;
 }
 
 FrameUniforms make_frame_uniforms(const scene::FrameView& frame, Vec2 jitter, const PreviousViews& before,
                                   bool background_on, Vec3 background) {
     FrameUniforms u{};
-    const bool known = before.views.size() == frame.views.size() && before.width == frame.width &&
-                       before.height == frame.height;
+    const bool known =
+        before.views.size() == frame.views.size() && before.width == frame.width && before.height == frame.height;
     for (u32 i = 0; i < std::min<u32>(u32(frame.views.size()), kViewsMost); ++i)
         u.views[i] = view_uniforms(frame.views[i], known ? &before.views[i] : nullptr, frame.width, frame.height,
-                                   jitter);
+                                   jitter, frame.sky);
     const scene::SkyState& sky = frame.sky;
     u.sun_direction = with(sky.sun_direction, sky.stars);
     u.moon_direction = with(sky.moon_direction, 0);

@@ -10,6 +10,7 @@ namespace vitrail::render {
 
 inline constexpr u32 kViewsMost = 8;
 inline constexpr float kNearPlane = 0.05f; // blocks
+inline constexpr float kWaterPhase = 0.30f; // share of scattered light that a liquid turns to the eye (medium.glsl: kPhase)
 
 struct ViewUniforms {
     Mat4 view_proj;            // camera-relative world to clip space, reversed depth; jitter included
@@ -17,6 +18,8 @@ struct ViewUniforms {
     Vec4 fraction, clip_plane; // the eye inside its block, near plane
     Vec4 ray_right, ray_up, ray_forward;
     std::array<i32, 4> eye_block{}; // the eye's block (shaders take it modulo what they repeat by)
+    Vec4 medium; // extinction of the liquid around the eye, a block; the eye's depth below its surface
+    Vec4 murk;   // radiance that an endless way through it scatters towards the eye; how open to the sky
 };
 
 struct FrameUniforms {
@@ -25,7 +28,7 @@ struct FrameUniforms {
         background, jitter;
     Vec4 sky_sh[9];
 };
-static_assert(sizeof(ViewUniforms) == 224 && sizeof(FrameUniforms) == 8 * 224 + 19 * 16);
+static_assert(sizeof(ViewUniforms) == 256 && sizeof(FrameUniforms) == 8 * 256 + 19 * 16);
 
 // The views of the frame before, for `previous`; none where nothing may be taken from it.
 struct PreviousViews {

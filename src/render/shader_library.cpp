@@ -80,6 +80,22 @@ Result<ProgramRef> ShaderLibrary::program(std::string_view vertex, std::string_v
     return build(key, std::move(source));
 }
 
+Result<ProgramRef> ShaderLibrary::tessellated_program(std::string_view vertex, std::string_view control,
+                                                      std::string_view evaluation, std::string_view fragment,
+                                                      std::vector<std::string> defines) {
+    const std::string key =
+        fmt::format("{}|{}|{}|{}|{}", vertex, control, evaluation, fragment, fmt::join(defines, "|"));
+    if (const auto kept = programs_.find(key); kept != programs_.end()) return kept->second;
+    gfx::ProgramSource source;
+    source.name = fragment;
+    VX_TRY_ASSIGN(source.vertex, text(vertex));
+    VX_TRY_ASSIGN(source.control, text(control));
+    VX_TRY_ASSIGN(source.evaluation, text(evaluation));
+    VX_TRY_ASSIGN(source.fragment, text(fragment));
+    source.defines = std::move(defines);
+    return build(key, std::move(source));
+}
+
 Result<ProgramRef> ShaderLibrary::compute_program(std::string_view compute, std::vector<std::string> defines) {
     const std::string key = fmt::format("{}|{}", compute, fmt::join(defines, "|"));
     if (const auto kept = programs_.find(key); kept != programs_.end()) return kept->second;

@@ -33,6 +33,10 @@ public:
     // vertex, fragment, compute: paths below passes/; defines: "NAME" or "NAME VALUE". Errors: also those of build_program.
     Result<ProgramRef> program(std::string_view vertex, std::string_view fragment,
                                std::vector<std::string> defines = {});
+    // With tessellation between them: patches in, triangles out.
+    Result<ProgramRef> tessellated_program(std::string_view vertex, std::string_view control,
+                                           std::string_view evaluation, std::string_view fragment,
+                                           std::vector<std::string> defines = {});
     Result<ProgramRef> compute_program(std::string_view compute, std::vector<std::string> defines = {});
 
     // Whether a file of the folder changed since the last call; then the programs kept are forgotten. Looks at the disk

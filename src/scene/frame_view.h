@@ -12,6 +12,14 @@
 
 namespace vitrail::scene {
 
+// The liquid that the eye is in: what light loses in it a block by color (base e), and what it adds. In thin air all 0.
+struct Medium {
+    Vec3 absorption{}, scattering{};
+    Vec3 glow{};     // radiance of its own: lava
+    float depth = 0; // of the eye below the surface, blocks
+    float open = 1;  // 0..1: share of the sky's light that reaches the surface above
+};
+
 // One place looked from. Every pixel of the G-buffer carries the number of the view it belongs to.
 struct View {
     Located<WorldPos> eye;
@@ -21,7 +29,8 @@ struct View {
     Vec4 clip_plane{0, 0, 0, 1}; // camera-relative plane (n, d): drawn where n.p + d >= 0; the default keeps all
     u8 parent = 0;               // view it is seen from
     bool mirrored = false;       // winding turns
-    bool underwater = false;     // the eye is inside a liquid
+    bool underwater = false;     // the eye is inside a liquid:
+    Medium medium;               // this one
     float open_air = 1;          // 0..1, of view 0: how open to the sky the eye stands; air in the dark does not shine
 };
 

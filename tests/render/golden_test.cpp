@@ -2,6 +2,7 @@
 #include "golden.h"
 #include "render_fixture.h"
 #include "scene/sky.h"
+#include "scene/water.h"
 
 namespace vitrail::render {
 
@@ -29,6 +30,10 @@ protected:
         frame.sky = scene::sky_at(shot.time);
         frame.seconds = 2;
         frame.views[0].underwater = shot.underwater;
+        if (shot.underwater) {
+            const auto optics = scene::water_optics({0.25f, 0.46f, 0.89f});
+            frame.views[0].medium = {optics.absorption, optics.scattering, {}, 39.9f - float(ground + shot.up), 1};
+        }
         frame.outlines.push_back(
             {{DimensionId::overworld, {6, scene.ground(6, 18) + 1, 15}}, {{{0, 0, 0}, {1, 1, 1}}}});
         golden::compare("render", shot.name, draw(*renderer, frame));

@@ -32,6 +32,14 @@ inline Image test_texture(std::array<u8, 3> color, u8 alpha, float holes, u64 se
     return image;
 }
 
+inline Image flat_texture(std::array<u8, 3> color, u8 alpha) {
+    Image image{32, 32, 4, std::vector<u8>(32 * 32 * 4)};
+    for (u32 i = 0; i < 32 * 32; ++i)
+        for (u32 c = 0; c < 4; ++c)
+            image.pixels[i * 4 + c] = c < 3 ? color[c] : alpha;
+    return image;
+}
+
 // A folder with textures/ of everything the sample scene shows.
 struct TestFolder {
     std::string path;
@@ -67,6 +75,9 @@ inline const std::string& test_content() {
                                  {"red", {255, 0, 0}, 128, 0},
                                  {"green", {0, 255, 0}, 128, 0},
                                  {"white", {210, 210, 210}, 255, 0}};
+        (void)write_png(folder + "/textures/flat_white.png", flat_texture({255, 255, 255}, 255));
+        (void)write_png(folder + "/textures/flat_red.png", flat_texture({255, 0, 0}, 128));
+        (void)write_png(folder + "/textures/flat_blue.png", flat_texture({0, 0, 255}, 128));
         u64 seed = 1;
         for (const Entry& e : entries)
             (void)write_png(folder + "/textures/" + e.name + ".png", test_texture(e.color, e.alpha, e.holes, seed++));

@@ -8,6 +8,8 @@ struct ViewData {
     vec4 ray_up;      // w of ray_right: blocks a pixel at distance 1; of ray_up: 1 where the eye is under water
     vec4 ray_forward; // w: scale of the view
     ivec4 eye_block;  // xyz: add a camera-relative place and fraction for a place in the world (modulo a power of two)
+    vec4 medium;      // extinction of the liquid around the eye, a block (base e); w: blocks from the eye up to its surface
+    vec4 murk;        // radiance that an endless way through it sends to the eye; w: how open to the sky
 };
 layout(std140, binding = 0) uniform Frame {
     ViewData views[8];

@@ -10,7 +10,7 @@ layout(std140, binding = 2) uniform Mist {
 // The mist's density at the base times this is what lies between the base and `above` (negative below it), in blocks.
 float mist_column(float above) {
     float high = max(above, 0.0) * mist_air.z;
-    return min(above, 0.0) + (1.0 - exp2(-1.442695 * high)) / mist_air.z;
+    return min(above, 0.0) + (1.0 - exp2(-1.442695 * high)) / max(mist_air.z, 1e-6);
 }
 
 // Optical depth of the first `away` blocks along a unit direction that rises by `rise` a block.

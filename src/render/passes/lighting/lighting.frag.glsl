@@ -6,6 +6,8 @@
 #include "common/normal.glsl"
 #include "common/surface.glsl"
 #include "common/ambient.glsl"
+#include "water/medium.glsl"
+#include "water/caustics.glsl"
 #include "common/fog.glsl"
 #include "shadow/shadow.glsl"
 #include "lighting/shade.glsl"
@@ -47,5 +49,5 @@ void main() {
 #endif
     vec3 towards = ray * per_length;
     vec3 color = shade(s, place, towards, number);
-    o_color = vec4(apply_fog(color, away, towards, view.ray_up.w, s.light.a), 1.0);
+    o_color = vec4(apply_fog(color, away, towards, number, s.light.a), 1.0);
 }

@@ -12,6 +12,7 @@ Result<> LightingPass::build(const BuildContext& context) {
     if (context.effects.ssao.on) defines.push_back("SSAO");
     if (context.effects.shadows.samples > 1 && context.effects.antialias != i32(Antialias::taa))
         defines.push_back("SHADOW_QUADS");
+    if (context.effects.water.caustics) defines.push_back("CAUSTICS");
     VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "lighting/lighting.frag.glsl", defines));
     return {};
 }

@@ -4,6 +4,7 @@
 #include "common/sky.glsl"
 #include "common/ambient.glsl"
 #include "common/mist.glsl"
+#include "water/medium.glsl"
 
 layout(location = 0) in vec2 v_ndc;
 layout(binding = 10) uniform sampler2D t_clouds; // r: wide shapes, g: heaps; repeats
@@ -50,8 +51,6 @@ void main() {
 #endif
     // As land at the edge of view: no seam.
     color = mist_over(color, 1.0 / misc.y, d, 0u, 1.0);
-    // Under water one sees murk.
-    vec3 murk = (ambient.rgb + sun_light.rgb * 0.25) * vec3(0.03, 0.16, 0.22);
-    color = mix(color, murk, view.ray_up.w);
+    color = through_medium(color, d, 1e5, 0u);
     o_color = vec4(mix(color, background.rgb, background.w), 1.0);
 }

@@ -4,6 +4,7 @@
 #include "common/sky.glsl"
 #include "common/normal.glsl"
 #include "common/surface.glsl"
+#include "water/medium.glsl"
 #include "common/fog.glsl"
 #include "common/dither.glsl"
 #include "ssr/ssr.glsl"
@@ -59,8 +60,8 @@ void main() {
                                        pixel_noise(pixel, u_turn), roughness * roughness);
     vec3 reflected = mix(surroundings(direction, light) * texelFetch(t_albedo, pixel, 0).a, seen.rgb, seen.a);
     // The air in front of the mirror hides it.
-    vec3 air = apply_fog(vec3(0.0), away, towards, view.ray_up.w, light.a);
-    vec3 clear = apply_fog(vec3(1.0), away, towards, view.ray_up.w, light.a) - air;
+    vec3 air = apply_fog(vec3(0.0), away, towards, number, light.a);
+    vec3 clear = apply_fog(vec3(1.0), away, towards, number, light.a) - air;
     share *= dot(clear, vec3(1.0 / 3.0));
     vec4 was = imageLoad(i_color, pixel);
     imageStore(i_color, pixel, vec4(mix(was.rgb, reflected, share), was.a));

@@ -1,5 +1,6 @@
 // Pulls 8-byte quads (render/meshing/quad.h) by gl_VertexID. MODEL: 0 cube quads, 1 model quads, 2 either.
-// SMOOTH: blended tints. SWAY: wind. NORMAL_MAPS, LIQUID: the fragment needs the place.
+// SMOOTH: blended tints. SWAY: wind. NORMAL_MAPS, LIQUID: the fragment needs the place. LIQUID: and where it is in the
+// world, modulo 256.
 // SHADOW: into a shadow map (shadow/shadow_pass.cpp), sections relative to the map's anchor block; CUTOUT and COLORED
 // say what its fragments need.
 #include "common/frame.glsl"
@@ -31,7 +32,8 @@ layout(location = 3) flat out uvec2 v_surface; // layer; normal bytes, view << 1
 layout(location = 4) out vec3 v_position;
 #endif
 #ifdef LIQUID
-layout(location = 5) out vec3 v_local;
+layout(location = 5) out vec3 v_world;
+layout(location = 6) out float v_bob; // 1: a corner of a liquid's surface, which waves move (water.tese.glsl)
 #endif
 out float gl_ClipDistance[1];
 #endif
@@ -71,6 +73,7 @@ void main() {
     vec3 lit_at;
     vec3 grow = vec3(0.0);
     bool gone = false;
+    float bob = 0.0;
     uint what = 6u; // kFaceModel
 #if MODEL == 2
     bool is_model = (q.x >> 23 & 1u) != 0u;
@@ -93,7 +96,7 @@ void main() {
         float out_by = positive ? 1.0 : 0.0;
         vec3 add = axis == 0u ? vec3(out_by, h, w) : axis == 1u ? vec3(w, out_by, h) : vec3(w, h, out_by);
         local += add;
-        if ((q.y >> 28 & 1u) != 0u && face == 3u) local.y -= kLiquidDrop; // a level liquid ends below its cell's top
+        if ((q.y >> 28 & 1u) != 0u && face == 3u) local.y -= kLiquidDrop, bob = 1.0; // a level liquid ends below its cell's top
         float su = along_u * 2.0 - 1.0, sv = along_v * 2.0 - 1.0;
         grow = axis == 0u ? vec3(0.0, sv, su) : axis == 1u ? vec3(su, 0.0, sv) : vec3(su, sv, 0.0);
         float side = positive ? 1.0 : -1.0;
@@ -118,6 +121,7 @@ void main() {
         ivec3 p = ivec3(bitfieldExtract(int(xy), 0, 16), bitfieldExtract(int(xy), 16, 16), bitfieldExtract(int(zs), 0, 16));
         vec3 inside = vec3(p) * (1.0 / 256.0);
         local += inside;
+        bob = (q.y >> 28 & 1u) != 0u && p.y > 4 && p.y < 252 ? 1.0 : 0.0;
         int s = bitfieldExtract(int(zs), 16, 16), t = bitfieldExtract(int(tt), int(corner & 1u) * 16, 16);
         uv = vec2(s, t) * (1.0 / 256.0);
         int nw = int(models[at + 10u]);
@@ -182,7 +186,8 @@ void main() {
     v_position = position;
 #endif
 #ifdef LIQUID
-    v_local = local;
+    v_world = vec3((view.eye_block.xyz + in_section.xyz) & 255) + local;
+    v_bob = bob;
 #endif
 #endif
 }

@@ -16,7 +16,8 @@ void bind_terrain(const TerrainInputs& in) {
     glFrontFace(in.mirrored ? GL_CW : GL_CCW);
 }
 
-void draw_kind(const gfx::Program& program, const TerrainInputs& in, DrawKind kind, bool cull) {
+void draw_kind(const gfx::Program& program, const TerrainInputs& in, DrawKind kind, bool cull, u32 mode) {
+    static_assert(GL_TRIANGLES == 4);
     const TerrainInputs::Range range = in.ranges[u32(kind)];
     if (range.count == 0) return;
     glUseProgram(program.name());
@@ -26,7 +27,7 @@ void draw_kind(const gfx::Program& program, const TerrainInputs& in, DrawKind ki
         glEnable(GL_CULL_FACE);
     else
         glDisable(GL_CULL_FACE);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(range.offset),
+    glMultiDrawElementsIndirect(mode, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(range.offset),
                                 GLsizei(range.count), 0);
 }
 

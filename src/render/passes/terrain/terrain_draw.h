@@ -28,6 +28,7 @@ struct TerrainInputs {
 // Binds vertex array, storage buffers, indirect buffer, and the textures at units 0 to 2.
 void bind_terrain(const TerrainInputs& in);
 // The program's uniforms 0 (view) and 1 (light atlas) are set; nothing is drawn where there is nothing of this kind.
-void draw_kind(const gfx::Program& program, const TerrainInputs& in, DrawKind kind, bool cull);
+// mode: GL_TRIANGLES (the default), or GL_PATCHES of six indices, a quad each.
+void draw_kind(const gfx::Program& program, const TerrainInputs& in, DrawKind kind, bool cull, u32 mode = 4);
 
 } // namespace vitrail::render

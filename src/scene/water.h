@@ -1,0 +1,43 @@
+// Water as physics sees it, for raster and tracer alike: waves of its surface in world space, and what light loses on
+// its way through. Shaders have the same in render/passes/water/waves.glsl and medium.glsl (a test compares them).
+// Kernel-safe: values only.
+#pragma once
+
+#include "math/vec.h"
+#include "voxel/coords.h"
+
+namespace vitrail::scene {
+
+// Waves repeat after this many blocks along x and z and after as many seconds, exactly: a place of the world modulo the
+// period has the same waves everywhere, in every section and at 2^31.
+inline constexpr i32 kWavePeriod = 256;
+inline constexpr u32 kSwells = 4, kRipples = 8;
+
+// Sines: whole numbers of periods along x and z and in time; height is a share of the greatest height (swells, which
+// sum to 1) or of 1 block at a wave height of 0.06 (ripples, which the geometry is too coarse to follow: they only
+// tilt).
+struct Wave {
+    i32 x, z, t;
+    float height;
+};
+inline constexpr Wave kWaves[kSwells + kRipples] = {
+    {15, 5, 44, 0.40f},       {14, 21, 55, 0.30f},       {38, 2, 68, 0.18f},        {39, 40, 82, 0.12f},
+    {19, 73, 95, 0.0150f},    {95, 32, 110, 0.0122f},    {-52, 122, 127, 0.0094f},  {171, -31, 145, 0.0072f},
+    {137, 180, 165, 0.0056f}, {190, -229, 190, 0.0042f}, {-119, 367, 216, 0.0030f}, {421, 287, 249, 0.0020f},
+};
+
+struct WaveSurface {
+    float swell = 0, ripple = 0; // blocks above the level surface; geometry is moved by the swell alone
+    Vec2 slope;                  // of swell + ripple along x and z
+};
+// place: the block of the world; inside: 0..1 in it (any number); seconds: since the start; wave_height: blocks, the
+// most that the swell rises or falls.
+WaveSurface wave_at(BlockPos place, Vec2 inside, float seconds, float wave_height);
+
+// What light loses a block (base e, by color) in water of this tint (sRGB 0..1): what the tint lacks is absorbed.
+struct LiquidOptics {
+    Vec3 absorption, scattering;
+};
+LiquidOptics water_optics(Vec3 tint_srgb);
+
+} // namespace vitrail::scene
