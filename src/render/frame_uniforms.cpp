@@ -24,11 +24,14 @@ static void set_medium(ViewUniforms& u, const scene::View& view, const scene::Sk
     const Vec3 lost = m.absorption + m.scattering;
     u.medium = with(lost, m.depth);
     const float high = std::max(std::abs(sky.sun_direction.y), 0.0f);
-    const Vec3 light = (sky.ambient + sky.sun_light * high) * m.open + Vec3{1, 1, 1} * (0.012f * mean(m.scattering) * 30);
+    const Vec3 light =
+        (sky.ambient + sky.sun_light * high) * m.open + Vec3{1, 1, 1} * (0.012f * mean(m.scattering) * 30);
+    // Eyes grow used to the deep: more than kDarkest blocks are never counted (medium.glsl: told_depth).
+    constexpr float kDarkest = 13;
+    const float deep = kDarkest * (1 - std::exp(-m.depth / kDarkest));
     const auto murk = [&](float scatter, float extinct, float from_above, float glow) {
         if (extinct <= 0) return 0.0f;
-        return glow +
-               from_above * kWaterPhase * scatter / extinct * std::exp(-0.7f * extinct * std::min(m.depth, 60.0f));
+        return glow + from_above * kWaterPhase * scatter / extinct * std::exp(-0.7f * extinct * deep);
     };
     u.murk = {murk(m.scattering.x, lost.x, light.x, m.glow.x), murk(m.scattering.y, lost.y, light.y, m.glow.y),
               murk(m.scattering.z, lost.z, light.z, m.glow.z), m.open};

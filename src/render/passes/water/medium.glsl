@@ -2,6 +2,9 @@
 const float kPhase = 0.30;    // share of scattered light that turns to the eye (render::kWaterPhase)
 const float kDownwards = 0.7; // share of the extinction that light from above suffers: the rest is scattered on downwards
 
+// Eyes grow used to the deep: more than 13 blocks are never counted, so that one sees there.
+float told_depth(float depth) { return 13.0 * (1.0 - exp(-depth / 13.0)); }
+
 struct Optics {
     vec3 absorption, scattering; // a block, base e
 };
@@ -38,5 +41,5 @@ vec3 light_in_medium(vec3 place, uint number, inout float sky, out float depth) 
     if (view.ray_up.w == 0.0 || depth <= 0.0) return vec3(1.0);
     float expected = max(15.0 - depth, 0.0) * (1.0 / 15.0);
     sky = view.murk.w * clamp(1.0 - (expected - sky) * 2.5, 0.0, 1.0);
-    return exp(-view.medium.rgb * (kDownwards * min(depth, 60.0)));
+    return exp(-view.medium.rgb * (kDownwards * told_depth(depth)));
 }
