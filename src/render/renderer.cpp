@@ -19,7 +19,7 @@ static gfx::Buffer make_quad_indices() {
 }
 
 Result<> Renderer::Impl::build(const Effects& wanted) {
-    const BuildContext build{shaders, wanted, context};
+    const BuildContext build{shaders, wanted, context, compute};
     for (const auto& pass : passes)
         VX_TRY(pass->build(build));
     VX_TRY_ASSIGN(icon, shaders.program("icon/icon.vert.glsl", "icon/icon.frag.glsl"));
@@ -44,6 +44,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     Impl& impl = *made->impl_;
     impl.context = std::move(context);
     if (impl.context.software) impl.context.anisotropy_max = 1; // eight times the texture work on the CPU
+    impl.compute =
+        options.screen == ScreenWork::compute || (options.screen == ScreenWork::automatic && !impl.context.software);
     impl.effects = sane(options.effects);
     impl.passes = make_passes();
     VX_TRY(impl.build(impl.effects));

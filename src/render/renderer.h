@@ -33,10 +33,14 @@ class PackLooks;
 
 namespace vitrail::render {
 
+// How passes over the whole screen run; both ways draw the same picture. automatic: compute but on software OpenGL.
+enum class ScreenWork { automatic, fragments, compute };
+
 struct RendererOptions {
     Effects effects = preset_effects(Preset::high);
     u64 quad_bytes_start = 8u << 20; // the quad buffer doubles from here
-    std::string shader_folder = {};  // shaders are read from here and again when they change; empty: those built in
+    ScreenWork screen = ScreenWork::automatic;
+    std::string shader_folder = {}; // shaders are read from here and again when they change; empty: those built in
 };
 
 // Where a picture goes: 0 is the window; kOwnPicture the renderer's own target, read by read_pixels.
@@ -97,8 +101,8 @@ public:
                                            u32 size);
     Result<Image> read_texture(const gfx::Texture& texture); // RGBA
 
-    // Takes effect with the next frame; held inside their ranges. Errors: invalid_argument (a shader does not build; the
-    // effects stay as they were).
+    // Takes effect with the next frame; held inside their ranges. Errors: invalid_argument (a shader does not build;
+    // the effects stay as they were).
     Result<> set_effects(const Effects& effects);
     const Effects& effects() const;
     // What temporal effects keep (exposure, history) is forgotten: the next frame stands for itself.

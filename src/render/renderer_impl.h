@@ -19,6 +19,7 @@ struct Renderer::Impl {
         , ring(1u << 20) {}
 
     gfx::ContextInfo context;
+    bool compute = false; // see ScreenWork
     ShaderLibrary shaders;
     std::string shader_error;
     Effects effects;

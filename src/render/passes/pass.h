@@ -1,11 +1,12 @@
-// What a pass of the raster renderer is. One folder a pass, its shaders beside it; pass_list.cpp holds the order. A frame:
+// What a pass of the raster renderer is. One folder a pass, its shaders beside it; pass_list.cpp holds the order. A
+// frame:
 //
 //     begin(frame)     every pass, before the frame's uniforms are made: may move the view (jitter)
 //     prepare(frame)   every pass, before drawing: culls and uploads what it draws, fills its part of the uniforms
 //     graph.execute()  what the passes declared, in order
 //
-// A pass whose effect is off declares nothing. Effects or window changed: build and declare anew; a shader file changed:
-// build anew.
+// A pass whose effect is off declares nothing. Effects or window changed: build and declare anew; a shader file
+// changed: build anew.
 #pragma once
 
 #include "gfx/context.h"
@@ -20,6 +21,7 @@ struct BuildContext {
     ShaderLibrary& shaders;
     const Effects& effects;
     const gfx::ContextInfo& context;
+    bool compute = false; // passes over the screen run as compute shaders, not as fragments (ScreenProgram)
 };
 
 struct DeclareContext {
@@ -29,7 +31,8 @@ struct DeclareContext {
     // The target that holds the picture in linear HDR after the passes declared so far; a pass that makes a new one
     // (antialiasing in time) names it here.
     std::string color = "color";
-    // The picture as the screen shows it, after the passes declared so far: "screen", or, from tone mapping to fxaa, a target.
+    // The picture as the screen shows it, after the passes declared so far: "screen", or, from tone mapping to fxaa, a
+    // target.
     std::string display = "screen";
 };
 

@@ -1,7 +1,5 @@
 #include "render/passes/bloom/bloom_pass.h"
 
-#include "render/passes/screen_pass.h"
-
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -12,9 +10,13 @@ constexpr float kWider = 0.62f;
 
 Result<> BloomPass::build(const BuildContext& context) {
     if (!context.effects.bloom.on) return {};
-    VX_TRY_ASSIGN(first_, context.shaders.program("common/screen.vert.glsl", "bloom/down.frag.glsl", {"FIRST"}));
-    VX_TRY_ASSIGN(down_, context.shaders.program("common/screen.vert.glsl", "bloom/down.frag.glsl"));
-    VX_TRY_ASSIGN(up_, context.shaders.program("common/screen.vert.glsl", "bloom/up.frag.glsl"));
+    ScreenShader down{.path = "bloom/down.screen.glsl", .formats = {GL_RGBA16F}};
+    VX_TRY_ASSIGN(down_, ScreenProgram::build(context, down));
+    down.defines = {"FIRST"};
+    VX_TRY_ASSIGN(first_, ScreenProgram::build(context, down));
+    VX_TRY_ASSIGN(
+        up_, ScreenProgram::build(
+                 context, {.path = "bloom/up.screen.glsl", .formats = {GL_RGBA16F}, .blend = ScreenBlend::by_share}));
     return {};
 }
 
@@ -28,9 +30,8 @@ void BloomPass::declare(DeclareContext& c) {
         c.graph.add_pass({fmt::format("bloom down {}", level),
                           {from},
                           {name(level)},
-                          [this, from, level](const gfx::PassContext& p) {
-                              draw_screen(level == 1 ? *first_ : *down_, frame_->plain_array, ScreenArea::all,
-                                          {p.graph.target(from).name()});
+                          [this, from, to = name(level), level](const gfx::PassContext& p) {
+                              (level == 1 ? first_ : down_).run(p, frame_->plain_array, {to}, {from});
                           },
                           ""});
     }
@@ -39,9 +40,8 @@ void BloomPass::declare(DeclareContext& c) {
         c.graph.add_pass({fmt::format("bloom up {}", level),
                           {from},
                           {name(level)},
-                          [this, from](const gfx::PassContext& p) {
-                              draw_screen(*up_, frame_->plain_array, ScreenArea::all, {p.graph.target(from).name()},
-                                          ScreenBlend::by_share, kWider);
+                          [this, from, to = name(level)](const gfx::PassContext& p) {
+                              up_.run(p, frame_->plain_array, {to}, {from}, kWider);
                           },
                           ""});
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/passes/pass.h"
+#include "render/passes/screen_pass.h"
 
 namespace vitrail::render {
 
@@ -13,7 +14,7 @@ public:
     void declare(DeclareContext& context) override;
 
 private:
-    ProgramRef first_, down_, up_;
+    ScreenProgram first_, down_, up_;
 };
 
 } // namespace vitrail::render

@@ -1,6 +1,5 @@
 #include "render/passes/lighting/lighting_pass.h"
 
-#include "render/passes/screen_pass.h"
 #include "render/passes/shadow/shadow_pass.h"
 
 #include <epoxy/gl.h>
@@ -10,10 +9,14 @@ namespace vitrail::render {
 Result<> LightingPass::build(const BuildContext& context) {
     std::vector<std::string> defines = shadow_defines(context.effects);
     if (context.effects.ssao.on) defines.push_back("SSAO");
-    if (context.effects.shadows.samples > 1 && context.effects.antialias != i32(Antialias::taa))
-        defines.push_back("SHADOW_QUADS");
     if (context.effects.water.caustics) defines.push_back("CAUSTICS");
-    VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "lighting/lighting.frag.glsl", defines));
+    const bool quads = context.effects.shadows.samples > 1 && context.effects.antialias != i32(Antialias::taa);
+    if (quads) defines.push_back("SHADOW_QUADS");
+    VX_TRY_ASSIGN(program_, ScreenProgram::build(context, {.path = "lighting/lighting.screen.glsl",
+                                                           .defines = std::move(defines),
+                                                           .formats = {GL_RGBA16F},
+                                                           .area = ScreenArea::surfaces,
+                                                           .derivatives = quads}));
     return {};
 }
 
@@ -29,9 +32,7 @@ void LightingPass::declare(DeclareContext& c) {
                           if (ssao) glBindTextureUnit(u32(Unit::ao), p.graph.target("ao").name());
                           // Depth is sampled while it is attached: allowed, since nothing writes it between barriers.
                           glTextureBarrier();
-                          draw_screen(*program_, frame_->plain_array, ScreenArea::surfaces,
-                                      {p.graph.target("albedo").name(), p.graph.target("light").name(),
-                                       p.graph.target("surface").name(), p.graph.target("depth").name()});
+                          program_.run(p, frame_->plain_array, {"color"}, {"albedo", "light", "surface", "depth"});
                       },
                       "depth"});
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/passes/pass.h"
+#include "render/passes/screen_pass.h"
 
 namespace vitrail::render {
 
@@ -11,7 +12,7 @@ public:
     void declare(DeclareContext& context) override;
 
 private:
-    ProgramRef program_;
+    ScreenProgram program_;
 };
 
 } // namespace vitrail::render

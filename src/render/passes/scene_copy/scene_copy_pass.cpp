@@ -1,14 +1,13 @@
 #include "render/passes/scene_copy/scene_copy_pass.h"
 
-#include "render/passes/screen_pass.h"
-
 #include <epoxy/gl.h>
 
 namespace vitrail::render {
 
 Result<> SceneCopyPass::build(const BuildContext& context) {
     if (!wanted(context.effects)) return {};
-    VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "scene_copy/scene_copy.frag.glsl"));
+    VX_TRY_ASSIGN(program_, ScreenProgram::build(
+                                context, {.path = "scene_copy/scene_copy.screen.glsl", .formats = {GL_RGBA16F}}));
     return {};
 }
 
@@ -20,9 +19,7 @@ void SceneCopyPass::declare(DeclareContext& c) {
                       {c.color, "surface", "depth"},
                       {"scene"},
                       [this, color = c.color, mips](const gfx::PassContext& p) {
-                          draw_screen(*program_, frame_->plain_array, ScreenArea::all,
-                                      {p.graph.target(color).name(), 0, p.graph.target("surface").name(),
-                                       p.graph.target("depth").name()});
+                          program_.run(p, frame_->plain_array, {"scene"}, {color, "", "surface", "depth"});
                           if (mips) glGenerateTextureMipmap(p.graph.target("scene").name());
                       },
                       ""});

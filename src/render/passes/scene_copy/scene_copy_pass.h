@@ -5,6 +5,7 @@
 #pragma once
 
 #include "render/passes/pass.h"
+#include "render/passes/screen_pass.h"
 
 namespace vitrail::render {
 
@@ -15,7 +16,7 @@ public:
     static bool wanted(const Effects& effects) { return effects.reflections.on || effects.water.refraction; }
 
 private:
-    ProgramRef program_;
+    ScreenProgram program_;
 };
 
 } // namespace vitrail::render

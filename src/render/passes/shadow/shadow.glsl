@@ -1,5 +1,4 @@
-// How much of the sun's (or moon's) light reaches a surface, by color. Needs frame.glsl; fragment shaders only
-// (shadow_map.glsl serves the others).
+// How much of the sun's (or moon's) light reaches a surface, by color. Needs frame.glsl.
 //
 // Against acne: a surface's depth over the filter's kernel is the plane it lies in, known exactly by its normal; the rest,
 // that a texel holds the depth of its center, is met by an offset along the normal in proportion to texel and slope.
@@ -7,6 +6,7 @@
 // width is the radius of the filter, a Vogel disk turned by a full circle of interleaved gradient noise (Jimenez 2014),
 // which antialiasing in time evens out. SHADOW_QUADS, for passes over the whole screen without it: four pixels share one
 // disk of four times the samples and its mean, and there is no noise.
+#include "common/pixel.glsl"
 #include "shadow/shadow_map.glsl"
 
 #ifdef SHADOWS
@@ -22,11 +22,11 @@ const vec3 kWaterLight = vec3(0.34, 0.115, 0.085);
 // Direction of the disk's first sample, and its share of the way to the second.
 vec3 shadow_start() {
 #ifdef SHADOW_QUADS
-    ivec2 pixel = ivec2(gl_FragCoord.xy) & 1;
+    ivec2 pixel = ivec2(pixel_middle()) & 1;
     float k = float(pixel.x + 2 * pixel.y);
     float angle = k * 2.39996323, share = (k + 0.5) * 0.25;
 #else
-    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy + shadow_info.z, vec2(0.06711056, 0.00583715))));
+    float noise = fract(52.9829189 * fract(dot(pixel_middle() + shadow_info.z, vec2(0.06711056, 0.00583715))));
     float angle = noise * 6.2831853, share = 0.5;
 #endif
     return vec3(cos(angle), sin(angle), share);
@@ -39,7 +39,7 @@ float shadow_radius = 0.0; // of the last filter, blocks
 // by.
 vec3 shadow_quad(vec3 light, vec3 place, vec3 face, float near) {
     float plane = dot(place, face), wide = shadow_radius * shadow_radius;
-    vec2 to_other = vec2(1 - 2 * (ivec2(gl_FragCoord.xy) & 1)) * 0.5;
+    vec2 to_other = vec2(1 - 2 * (ivec2(pixel_middle()) & 1)) * 0.5;
     vec3 step_x = dFdxFine(light), over_x = dFdxFine(place);
     float plane_x = abs(dFdxFine(plane)), turn_x = dot(abs(dFdxFine(face)), vec3(1.0));
     if (plane_x < near && turn_x < 0.1 && dot(over_x, over_x) < wide) light += step_x * to_other.x;

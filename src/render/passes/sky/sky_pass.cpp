@@ -1,6 +1,5 @@
 #include "render/passes/sky/sky_pass.h"
 
-#include "render/passes/screen_pass.h"
 #include "render/passes/sky/cloud_texture.h"
 
 #include <epoxy/gl.h>
@@ -11,15 +10,19 @@ namespace vitrail::render {
 using scene::SkyState;
 using scene::SkyTable;
 
-// The same numbers stand in sky.frag.glsl.
+// The same numbers stand in sky.screen.glsl.
 enum Place : GLint { sun_disc = 0, moon_disc = 1, sky_pole = 2, cloud_light = 3, cloud_direction = 4 };
 
 Result<> SkyPass::build(const BuildContext& context) {
     std::vector<std::string> defines{fmt::format("CLOUDS {}", context.effects.sky.clouds)};
-    VX_TRY_ASSIGN(day_, context.shaders.program("common/screen.vert.glsl", "sky/sky.frag.glsl", defines));
-    defines.push_back("NIGHT");
-    if (context.effects.sky.stars) defines.push_back("STARS");
-    VX_TRY_ASSIGN(night_, context.shaders.program("common/screen.vert.glsl", "sky/sky.frag.glsl", defines));
+    ScreenShader shader{.path = "sky/sky.screen.glsl",
+                        .defines = std::move(defines),
+                        .formats = {GL_RGBA16F},
+                        .area = ScreenArea::background};
+    VX_TRY_ASSIGN(day_, ScreenProgram::build(context, shader));
+    shader.defines.push_back("NIGHT");
+    if (context.effects.sky.stars) shader.defines.push_back("STARS");
+    VX_TRY_ASSIGN(night_, ScreenProgram::build(context, shader));
     if (!clouds_) clouds_ = make_cloud_texture();
     for (gfx::Texture& dome : domes_) {
         if (dome) continue;
@@ -30,7 +33,7 @@ Result<> SkyPass::build(const BuildContext& context) {
 }
 
 void SkyPass::declare(DeclareContext& c) {
-    c.graph.add_pass({"sky", {}, {"color"}, [this](const gfx::PassContext&) { draw(); }, "depth"});
+    c.graph.add_pass({"sky", {}, {"color"}, [this](const gfx::PassContext& p) { draw(p); }, "depth"});
 }
 
 void SkyPass::prepare(FrameContext& frame) {
@@ -46,11 +49,11 @@ void SkyPass::prepare(FrameContext& frame) {
     glBindSampler(u32(Unit::sky), 0);
 }
 
-void SkyPass::draw() const {
+void SkyPass::draw(const gfx::PassContext& p) const {
     const SkyState& sky = frame_->frame->sky;
     // Stars fade and the moon sets before the program changes: nobody sees it change.
     const bool night = sky.stars > 0 || sky.moon_direction.y > -0.15f;
-    const gfx::Program& program = night ? *night_ : *day_;
+    const ScreenProgram& program = night ? night_ : day_;
     const auto set = [&](Place place, Vec3 v, float w) { glProgramUniform4f(program.name(), place, v.x, v.y, v.z, w); };
     constexpr float kEighth = 0.785398163f;
     set(sun_disc, sky.sun_disc, 0);
@@ -63,7 +66,7 @@ void SkyPass::draw() const {
         set(cloud_direction, sky.cloud_direction, 0);
     }
     glBindTextureUnit(u32(Unit::noise), clouds_.name());
-    draw_screen(program, frame_->plain_array, ScreenArea::background, {});
+    program.run(p, frame_->plain_array, {"color"}, {});
 }
 
 u64 SkyPass::gpu_bytes() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/passes/pass.h"
+#include "render/passes/screen_pass.h"
 
 #include <array>
 
@@ -16,8 +17,8 @@ public:
     u64 gpu_bytes() const override;
 
 private:
-    void draw() const;
-    ProgramRef day_, night_;
+    void draw(const gfx::PassContext& context) const;
+    ScreenProgram day_, night_;
     gfx::Texture clouds_;
     std::array<gfx::Texture, 3> domes_; // in turn: the frames before may still read theirs
     u32 dome_ = 0;

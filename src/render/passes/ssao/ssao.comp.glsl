@@ -19,6 +19,7 @@ layout(binding = 0, r8) writeonly uniform image2D i_ao;
 const float kPi = 3.14159265, kHalfPi = 1.57079633;
 const float kThickness = 1.0; // blocks, of what stands there
 const float kJoin = 1.5;      // radii: samples nearer to each other belong to one thing
+const float kRounded = 1.0 / 64.0; // pixels; GPUs place corners in steps of 1/256 and take depths from there
 const float kWidest = 0.3;    // of the screen's height: near things are looked at in a smaller radius
 
 vec3 place_of(ViewData view, ivec2 pixel, float depth) {
@@ -78,6 +79,10 @@ float open_at(ivec2 pixel, ivec2 size, float depth) {
                 // Not the sky, not through a portal, not blades of grass.
                 if (far <= 0.0 || (what & 7u) != number || (what >> 3 & 7u) == kFacePlant) continue;
                 vec3 s = place_of(view, there, far) - place;
+                // What rises by less than corners are rounded on the screen lies in the surface: seen along itself, a plane
+                // of several quads would throw shadows from one onto the next.
+                float rise = dot(s, normal);
+                if (abs(rise) < kRounded * view.ray_right.w * view.fraction.w / min(depth, far)) s -= normal * rise;
                 // The pixel's middle lies beside the slice: moved along the surface into it, heights stay exact.
                 // Where the surface is seen along itself that way is long: what it carries past the middle tells nothing.
                 s -= back_onto * dot(s, axis);

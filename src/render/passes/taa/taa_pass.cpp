@@ -1,7 +1,5 @@
 #include "render/passes/taa/taa_pass.h"
 
-#include "render/passes/screen_pass.h"
-
 #include <epoxy/gl.h>
 
 namespace vitrail::render {
@@ -23,7 +21,8 @@ Vec2 TaaPass::shift(u32 step) {
 Result<> TaaPass::build(const BuildContext& context) {
     on_ = Antialias(context.effects.antialias) == Antialias::taa;
     if (!on_) return {};
-    VX_TRY_ASSIGN(program_, context.shaders.program("common/screen.vert.glsl", "taa/taa.frag.glsl"));
+    VX_TRY_ASSIGN(program_,
+                  ScreenProgram::build(context, {.path = "taa/taa.screen.glsl", .formats = {GL_RGBA16F, GL_RGBA16F}}));
     return {};
 }
 
@@ -44,12 +43,10 @@ void TaaPass::declare(DeclareContext& c) {
                       {"taa", "taa place"},
                       [this, color](const gfx::PassContext& p) {
                           const bool known = frame_->continues && p.graph.has_history("taa");
-                          glProgramUniform2f(program_->name(), 0, known ? 1.0f : 0.0f,
+                          glProgramUniform2f(program_.name(), 0, known ? 1.0f : 0.0f,
                                              frame_->frame->views.size() > 1 ? 1.0f : 0.0f);
-                          draw_screen(*program_, frame_->plain_array, ScreenArea::all,
-                                      {p.graph.target(color).name(), p.graph.target("taa@before").name(),
-                                       p.graph.target("taa place@before").name(), p.graph.target("depth").name(),
-                                       p.graph.target("surface").name()});
+                          program_.run(p, frame_->plain_array, {"taa", "taa place"},
+                                       {color, "taa@before", "taa place@before", "depth", "surface"});
                       },
                       ""});
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/passes/pass.h"
+#include "render/passes/screen_pass.h"
 
 namespace vitrail::render {
 
@@ -19,7 +20,7 @@ public:
     void begin(FrameContext& frame) override;
 
 private:
-    ProgramRef program_;
+    ScreenProgram program_;
     bool on_ = false;
     u32 step_ = 0;
 };

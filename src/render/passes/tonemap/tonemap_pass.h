@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/passes/pass.h"
+#include "render/passes/screen_pass.h"
 
 namespace vitrail::render {
 
@@ -12,8 +13,9 @@ public:
     void declare(DeclareContext& context) override;
 
 private:
-    void draw(const gfx::PassContext& context, const std::string& color);
-    ProgramRef program_;
+    void draw(const gfx::PassContext& context, const std::string& color, const std::string& into);
+    ScreenProgram program_;
+    bool compute_ = false;
 };
 
 } // namespace vitrail::render

@@ -1,12 +1,12 @@
 // The picture in linear light as the eye and the screen have it: bloom, exposure, filmic curve, sRGB, dithering.
 // AUTO: "exposure" counts. BLOOM, DITHER.
+#include "common/screen.glsl"
 #include "common/frame.glsl"
 #include "common/tone.glsl"
 layout(binding = 0) uniform sampler2D t_color;
 layout(binding = 1) uniform sampler2D t_bloom;
 layout(binding = 13) uniform sampler2D t_exposure;
 layout(location = 0) uniform vec2 u_exposure_bloom; // factor, share that spreads
-layout(location = 0) out vec4 o_color;
 
 // Interleaved gradient noise (Jimenez 2014): neighbors differ much, so that the eye averages them.
 vec3 noise(vec2 pixel) {
@@ -20,12 +20,12 @@ vec3 triangular(vec3 n) {
     return sign(n) * (1.0 - sqrt(1.0 - abs(n)));
 }
 
-void main() {
-    vec3 color = texelFetch(t_color, ivec2(gl_FragCoord.xy), 0).rgb;
+void shade_pixel(ivec2 pixel) {
+    vec3 color = texelFetch(t_color, pixel, 0).rgb;
     vec3 x = color;
 #ifdef BLOOM
     vec2 half_size = vec2(textureSize(t_bloom, 0));
-    x = mix(x, textureLod(t_bloom, gl_FragCoord.xy * 0.5 / half_size, 0.0).rgb, u_exposure_bloom.y);
+    x = mix(x, textureLod(t_bloom, pixel_middle() * 0.5 / half_size, 0.0).rgb, u_exposure_bloom.y);
 #endif
     float exposure = u_exposure_bloom.x;
 #ifdef AUTO
@@ -35,7 +35,7 @@ void main() {
     vec3 mapped = background.w > 0.5 ? clamp(color, 0.0, 1.0) : filmic(max(x * exposure, vec3(0.0)));
     vec3 encoded = srgb_from_linear(mapped);
 #ifdef DITHER
-    encoded += triangular(noise(floor(gl_FragCoord.xy))) * ((1.0 - background.w) / 255.0);
+    encoded += triangular(noise(vec2(pixel))) * ((1.0 - background.w) / 255.0);
 #endif
-    o_color = vec4(encoded, 1.0);
+    put(vec4(encoded, 1.0));
 }

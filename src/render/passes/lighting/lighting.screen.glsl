@@ -1,5 +1,6 @@
 // Light of every pixel that shows something, once a screen; what differs between views comes from views[view number].
 #define GLOSS
+#include "common/screen.glsl"
 #include "common/frame.glsl"
 #include "common/sky.glsl"
 #include "common/color.glsl"
@@ -12,7 +13,6 @@
 #include "shadow/shadow.glsl"
 #include "lighting/shade.glsl"
 
-layout(location = 0) in vec2 v_ndc;
 layout(binding = 0) uniform sampler2D t_albedo;
 layout(binding = 1) uniform sampler2D t_light;
 layout(binding = 2) uniform usampler2D t_surface;
@@ -20,10 +20,8 @@ layout(binding = 3) uniform sampler2D t_depth;
 #ifdef SSAO
 layout(binding = 8) uniform sampler2D t_ao;
 #endif
-layout(location = 0) out vec4 o_color;
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+void shade_pixel(ivec2 pixel) {
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
     uvec4 surface = texelFetch(t_surface, pixel, 0);
     float depth = texelFetch(t_depth, pixel, 0).r;
@@ -49,5 +47,5 @@ void main() {
 #endif
     vec3 towards = ray * per_length;
     vec3 color = shade(s, place, towards, number);
-    o_color = vec4(apply_fog(color, away, towards, number, s.light.a), 1.0);
+    put(vec4(apply_fog(color, away, towards, number, s.light.a), 1.0));
 }

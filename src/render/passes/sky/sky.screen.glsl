@@ -1,19 +1,18 @@
 // What lies behind everything: dome, stars, moon, sun, clouds, from far to near. Stars, moon and sun are infinitely far;
 // clouds hang in the world. NIGHT: stars or moon may show; STARS: they are wanted; CLOUDS: 0 none, 1 flat, 2 lit.
+#include "common/screen.glsl"
 #include "common/frame.glsl"
 #include "common/sky.glsl"
 #include "common/ambient.glsl"
 #include "common/mist.glsl"
 #include "water/medium.glsl"
 
-layout(location = 0) in vec2 v_ndc;
 layout(binding = 10) uniform sampler2D t_clouds; // r: wide shapes, g: heaps; repeats
 layout(location = 0) uniform vec4 sun_disc;        // rgb: color of the disc
 layout(location = 1) uniform vec4 moon_disc;       // w: phase, radians, 0 full
 layout(location = 2) uniform vec4 sky_pole;        // xyz: what the sky turns about; w: turn, radians
 layout(location = 3) uniform vec4 cloud_light;     // rgb: direct light at the clouds' height
 layout(location = 4) uniform vec4 cloud_direction; // xyz: towards it
-layout(location = 0) out vec4 o_color;
 
 #include "sky/discs.glsl"
 #if defined(NIGHT) && defined(STARS)
@@ -23,7 +22,7 @@ layout(location = 0) out vec4 o_color;
 #include "sky/clouds.glsl"
 #endif
 
-void main() {
+void shade_pixel(ivec2 pixel) {
     ViewData view = views[0];
     vec3 ray = view.ray_forward.xyz + view.ray_right.xyz * v_ndc.x + view.ray_up.xyz * v_ndc.y;
     float per_length = inversesqrt(dot(ray, ray));
@@ -45,12 +44,12 @@ void main() {
     color += sun_at(d, sun_disc.rgb, edge) * above;
 #if CLOUDS > 0
     // Interleaved gradient noise (Jimenez 2014) hides the steps of the march.
-    float dither = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+    float dither = fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
     vec4 clouds = clouds_at(d, t_clouds, dither);
     color = color * clouds.a + clouds.rgb;
 #endif
     // As land at the edge of view: no seam.
     color = mist_over(color, 1.0 / misc.y, d, 0u, 1.0);
     color = through_medium(color, d, 1e5, 0u);
-    o_color = vec4(mix(color, background.rgb, background.w), 1.0);
+    put(vec4(mix(color, background.rgb, background.w), 1.0));
 }

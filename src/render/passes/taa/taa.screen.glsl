@@ -1,16 +1,15 @@
 // Antialiasing in time: every frame is drawn with another shift below a pixel; this pass follows each surface to where it was in
 // the frame before and averages (Karis 2014, "High-Quality Temporal Supersampling"; Salvi 2016, variance clipping).
 // What was hidden then, lay off the screen, or belongs to another view is not taken.
+#include "common/screen.glsl"
 #include "common/frame.glsl"
-layout(location = 0) in vec2 v_ndc;
 layout(binding = 0) uniform sampler2D t_color;
 layout(binding = 1) uniform sampler2D t_before;
 layout(binding = 2) uniform sampler2D t_place_before;
 layout(binding = 3) uniform sampler2D t_depth;
 layout(binding = 4) uniform usampler2D t_surface;
 layout(location = 0) uniform vec2 u_state; // 1 where there is a frame before; 1 where there are several views
-layout(location = 0) out vec4 o_color;
-layout(location = 1) out vec4 o_place; // distance along the view's axis of what is nearest here; view number; frames gathered
+// The second target, place: distance along the view's axis of what is nearest here; view number; frames gathered
 
 const float kFar = 60000.0; // sky, as half floats hold it
 const float kMost = 32.0;   // frames that a resting picture gathers
@@ -53,8 +52,8 @@ vec3 clipped(vec3 c, vec3 middle, vec3 extent) {
     return most > 1.0 ? middle + way / most : c;
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy), last = ivec2(screen.xy) - 1;
+void shade_pixel(ivec2 pixel) {
+    ivec2 last = ivec2(screen.xy) - 1;
     vec4 color = texelFetch(t_color, pixel, 0);
     float here = texelFetch(t_depth, pixel, 0).r;
     uint number = number_at(pixel, here);
@@ -85,7 +84,7 @@ void main() {
     vec3 ray = view.ray_forward.xyz + view.ray_right.xyz * ndc.x + view.ray_up.xyz * ndc.y;
     vec4 clip = nearest > 0.0 ? view.previous * vec4(ray * (view.fraction.w / nearest), 1.0) : view.previous * vec4(ray, 0.0);
     vec2 motion = clip.w > 0.0 ? clip.xy / clip.w - (ndc - jitter.xy) : vec2(4.0);
-    vec2 uv = gl_FragCoord.xy * screen.zw + motion * 0.5;
+    vec2 uv = pixel_middle() * screen.zw + motion * 0.5;
     float moved = length(motion * 0.5 * screen.xy);
     float expected = nearest > 0.0 ? min(clip.w, kFar) : kFar;
 
@@ -97,8 +96,8 @@ void main() {
     bool known = u_state.x > 0.5 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThanEqual(uv, vec2(1.0))) &&
                  uint(place_before.y + 0.5) == number && farthest > expected * 0.93 - 0.2 && background.w < 0.5;
     if (!known) {
-        o_color = color;
-        o_place = vec4(nearest > 0.0 ? min(view.fraction.w / nearest, kFar) : kFar, float(number), 1.0, 0.0);
+        put_second(vec4(nearest > 0.0 ? min(view.fraction.w / nearest, kFar) : kFar, float(number), 1.0, 0.0));
+        put(color);
         return;
     }
     bool seam = false; // of views: no filter may reach across
@@ -128,6 +127,6 @@ void main() {
     past = mix(bounded, past, same);
     float gathered = min(place_before.z + 1.0, mix(8.0, kMost, same));
     vec3 result = mix(past, own, 1.0 / gathered);
-    o_color = vec4(released(clamp(from_ycocg(result), vec3(0.0), vec3(3.9999))), 1.0);
-    o_place = vec4(nearest > 0.0 ? min(view.fraction.w / nearest, kFar) : kFar, float(number), gathered, 0.0);
+    put_second(vec4(nearest > 0.0 ? min(view.fraction.w / nearest, kFar) : kFar, float(number), gathered, 0.0));
+    put(vec4(released(clamp(from_ycocg(result), vec3(0.0), vec3(3.9999))), 1.0));
 }
