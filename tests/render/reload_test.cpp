@@ -45,22 +45,22 @@ TEST_F(ReloadTest, AnEditShowsAndABrokenOneIsTold) {
     const auto frame = bench::SampleScene::frame(32, 32, eye_at(0, 0, 0), 0, -40, 8);
     const Image plain = draw(renderer, frame);
     EXPECT_EQ(renderer.shader_error(), "");
-    const std::string end = "o_color = vec4(encoded, 1.0);", red = "o_color = vec4(1.0, 0.0, 0.0, 1.0);";
-    edit("tonemap/tonemap.frag.glsl", end, red);
+    const std::string end = "put(vec4(encoded, 1.0));", red = "put(vec4(1.0, 0.0, 0.0, 1.0));";
+    edit("tonemap/tonemap.screen.glsl", end, red);
     const Image edited = draw(renderer, frame);
     EXPECT_EQ(renderer.shader_error(), "");
     EXPECT_NE(edited.pixels, plain.pixels);
     EXPECT_EQ(edited.at(16, 16)[0], 255);
     EXPECT_EQ(edited.at(16, 16)[2], 0);
     // What does not build: the program before it stays in use, and one is told where the mistake is.
-    edit("tonemap/tonemap.frag.glsl", red, "o_color = nonsense;");
+    edit("tonemap/tonemap.screen.glsl", red, "put(nonsense);");
     EXPECT_EQ(draw(renderer, frame).pixels, edited.pixels);
     EXPECT_NE(renderer.shader_error().find("tonemap"), std::string::npos) << renderer.shader_error();
     EXPECT_NE(renderer.shader_error().find("nonsense"), std::string::npos) << renderer.shader_error();
     EXPECT_EQ(draw(renderer, frame).pixels, edited.pixels);
     errors_before_ = gfx::debug_error_count(); // the driver's complaint was wanted
     // Mended, it is as at first; files that others include count too.
-    edit("tonemap/tonemap.frag.glsl", "o_color = nonsense;", end);
+    edit("tonemap/tonemap.screen.glsl", "put(nonsense);", end);
     EXPECT_EQ(draw(renderer, frame).pixels, plain.pixels);
     EXPECT_EQ(renderer.shader_error(), "");
     edit("common/tone.glsl", "vec3 filmic(vec3 c) {", "vec3 filmic(vec3 c) { c = vec3(0.0);");
@@ -68,10 +68,10 @@ TEST_F(ReloadTest, AnEditShowsAndABrokenOneIsTold) {
 }
 
 TEST_F(ReloadTest, AFolderWithoutShadersIsAnError) {
-    fs::remove(folder_ / "tonemap/tonemap.frag.glsl");
+    fs::remove(folder_ / "tonemap/tonemap.screen.glsl");
     const auto made = Renderer::create({.shader_folder = folder_.string()});
     ASSERT_FALSE(made);
-    EXPECT_NE(made.error().message.find("tonemap/tonemap.frag.glsl"), std::string::npos) << made.error().message;
+    EXPECT_NE(made.error().message.find("tonemap/tonemap.screen.glsl"), std::string::npos) << made.error().message;
 }
 
 } // namespace vitrail::render

@@ -1,6 +1,5 @@
 #include "render/passes/fog/fog_pass.h"
 
-#include "render/passes/screen_pass.h"
 #include "render/passes/shadow/shadow_pass.h"
 #include "scene/mist.h"
 
@@ -23,9 +22,12 @@ constexpr float kDeepest = -128, kHighest = 4096;
 
 Result<> FogPass::build(const BuildContext& context) {
     if (!context.effects.fog.volumetric) return {};
-    VX_TRY_ASSIGN(march_, context.shaders.program("common/screen.vert.glsl", "fog/march.frag.glsl",
-                                                  shadow_defines(context.effects)));
-    VX_TRY_ASSIGN(shafts_, context.shaders.program("common/screen.vert.glsl", "fog/shafts.frag.glsl"));
+    VX_TRY_ASSIGN(march_, ScreenProgram::build(context, {.path = "fog/march.screen.glsl",
+                                                         .defines = shadow_defines(context.effects),
+                                                         .formats = {GL_RG16F}}));
+    VX_TRY_ASSIGN(shafts_,
+                  ScreenProgram::build(
+                      context, {.path = "fog/shafts.screen.glsl", .formats = {GL_RGBA16F}, .blend = ScreenBlend::add}));
     return {};
 }
 
@@ -56,22 +58,17 @@ void FogPass::declare(DeclareContext& c) {
                       {"shafts"},
                       [this](const gfx::PassContext& p) {
                           const bool moves = Antialias(frame_->effects->antialias) == Antialias::taa;
-                          glProgramUniform2f(march_->name(), 0, float(frame_->effects->fog.steps),
+                          glProgramUniform2f(march_.name(), 0, float(frame_->effects->fog.steps),
                                              moves ? 5.588238f * float(frame_->number % 64) : 0.0f);
-                          draw_screen(*march_, frame_->plain_array, ScreenArea::all,
-                                      {p.graph.target("depth").name(), p.graph.target("light").name(),
-                                       p.graph.target("surface").name()});
+                          march_.run(p, frame_->plain_array, {"shafts"}, {"depth", "light", "surface"});
                       },
                       ""});
     c.graph.add_pass({"shafts",
                       {"depth", "surface", "shafts"},
                       {c.color},
-                      [this](const gfx::PassContext& p) {
+                      [this, color = c.color](const gfx::PassContext& p) {
                           if (frame_->exact) return;
-                          draw_screen(*shafts_, frame_->plain_array, ScreenArea::all,
-                                      {p.graph.target("depth").name(), p.graph.target("shafts").name(),
-                                       p.graph.target("surface").name()},
-                                      ScreenBlend::add);
+                          shafts_.run(p, frame_->plain_array, {color}, {"depth", "shafts", "surface"});
                       },
                       ""});
 }

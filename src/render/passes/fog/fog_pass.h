@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/passes/pass.h"
+#include "render/passes/screen_pass.h"
 
 namespace vitrail::render {
 
@@ -14,7 +15,7 @@ public:
     void prepare(FrameContext& frame) override;
 
 private:
-    ProgramRef march_, shafts_;
+    ScreenProgram march_, shafts_;
 };
 
 } // namespace vitrail::render

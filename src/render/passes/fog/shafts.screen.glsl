@@ -1,15 +1,13 @@
 // Brings the half-size march to every pixel: of the four values around, those count that belong to the same distance.
+#include "common/screen.glsl"
 #include "common/frame.glsl"
 #include "common/mist.glsl"
 
-layout(location = 0) in vec2 v_ndc;
 layout(binding = 0) uniform sampler2D t_depth;
 layout(binding = 1) uniform sampler2D t_shaft;
 layout(binding = 2) uniform usampler2D t_surface;
-layout(location = 0) out vec4 o_color;
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+void shade_pixel(ivec2 pixel) {
     float depth = texelFetch(t_depth, pixel, 0).r;
     ViewData view = views[depth > 0.0 ? texelFetch(t_surface, pixel, 0).z & 7u : 0u];
     vec3 ray = view.ray_forward.xyz + view.ray_right.xyz * v_ndc.x + view.ray_up.xyz * v_ndc.y;
@@ -28,5 +26,5 @@ void main() {
         sum += shaft.r * w;
         weights += w;
     }
-    o_color = vec4(mist_sun(ray * per_length) * (sum / weights), 0.0);
+    put(vec4(mist_sun(ray * per_length) * (sum / weights), 0.0));
 }
