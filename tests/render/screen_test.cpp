@@ -10,7 +10,7 @@ class ScreenWays : public RenderTest {
 protected:
     // Several frames of a turning eye, the last one as it is shown.
     static Image last_of(ScreenWork way, const Effects& effects, float time, bool views) {
-        bench::SampleScene scene(3, true);
+        bench::SampleScene scene(2, true);
         scene.registry.content_roots = {test_content()};
         auto made = Renderer::create({.effects = effects, .quad_bytes_start = 16384, .screen = way});
         EXPECT_TRUE(made) << made.error().message;
@@ -21,7 +21,7 @@ protected:
         Image image;
         for (u32 i = 0; i < 3; ++i) {
             // An odd size: no pass may rely on whole groups of threads.
-            auto frame = bench::SampleScene::frame(203, 117, eye_at(30.5, scene.ground(30, -41) + 9.0, -40.5),
+            auto frame = bench::SampleScene::frame(123, 77, eye_at(30.5, scene.ground(30, -41) + 9.0, -40.5),
                                                    -60 + float(i), 12, 4);
             frame.sky = scene::sky_at(time);
             frame.seconds = 2 + 0.05f * float(i);
