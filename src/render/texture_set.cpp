@@ -175,9 +175,7 @@ void TextureSet::set_smooth(bool smooth, float anisotropy) {
         gfx::set_filter(*texture, smooth ? GL_NEAREST_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, GL_REPEAT);
         if (smooth && anisotropy > 1) {
             gfx::set_filter(*texture, GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST, GL_REPEAT);
-            // Relief and gloss show less than color where they are seen along themselves, and cost as much.
-            const float most = texture == &albedo_ ? 4.0f : 2.0f;
-            glTextureParameterf(texture->name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(anisotropy, most));
+            glTextureParameterf(texture->name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(anisotropy, 8.0f));
         } else if (anisotropy > 1) {
             glTextureParameterf(texture->name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, 1);
         }

@@ -38,6 +38,9 @@ public:
         , passes_(std::move(passes)) {
         context_ = *gfx::context_info();
         plain_ = gfx::make_vertex_array();
+        Vec4 clear_air[1 + kViewsMost] = {}; // common/mist.glsl
+        clear_air[0].z = 1;
+        mist_ = gfx::make_buffer(sizeof clear_air, 0, clear_air);
         for (const auto& pass : passes_) {
             const Result<> built = pass->build({shaders_, effects_, context_});
             EXPECT_TRUE(built) << built.error().message;
@@ -93,6 +96,7 @@ public:
         color_ = &color;
         uniforms_ = gfx::make_buffer(sizeof frame_.uniforms, 0, &frame_.uniforms);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
+        glBindBufferBase(GL_UNIFORM_BUFFER, 2, mist_.name());
         glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
         graph_.execute();
         before_ = {frame.views, frame.width, frame.height};
@@ -161,7 +165,7 @@ private:
     gfx::FrameGraph graph_;
     gfx::Texture screen_;
     gfx::Framebuffer screen_framebuffer_;
-    gfx::Buffer uniforms_;
+    gfx::Buffer mist_, uniforms_;
     FrameContext frame_;
     PreviousViews before_;
     const Picture* color_ = nullptr;

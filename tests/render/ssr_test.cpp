@@ -1,7 +1,6 @@
 // Mirrors against the same scene drawn from the mirrored eye, Fresnel's share against its formula.
 #include "box_scene.h"
 #include "pass_rig.h"
-#include "render/passes/fog/fog_pass.h"
 #include "render/passes/scene_copy/scene_copy_pass.h"
 #include "render/passes/ssr/reflections_pass.h"
 #include "scene/sky.h"
@@ -223,7 +222,7 @@ TEST_F(Ssr, MirrorsShowNothingOfOtherViews) {
     const Vec3 eye{0.3f, 2.4f, 1.2f}, forward = look_direction(0, 6 * kDegree);
     // Things shine, the floor is black: how much light the floor has in the end.
     const auto mirrored_light = [&](bool apart) {
-        PassRig rig(effects(true), passes_of<FogPass, SceneCopyPass, ReflectionsPass>());
+        PassRig rig(effects(true), passes_of<SceneCopyPass, ReflectionsPass>());
         Picture color(frame.width, frame.height);
         std::vector<bool> floor;
         for (u32 y = 0; y < frame.height; ++y)
