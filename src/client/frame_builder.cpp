@@ -107,6 +107,8 @@ scene::FrameView build_frame(const CameraPose& pose, const Dimension& dimension,
     view.underwater = eye_in_liquid(dimension, pose.eye.at);
     if (view.underwater) view.medium = medium_at(dimension, pose.eye.at, water_tint);
     const float sky = std::min(float(dimension.light_at(block_of(pose.eye.at)).sky()) / 8.0f, 1.0f);
+    view.sea_level = dimension.info().sea_level;
+    view.misty = dimension.info().has_sky;
     view.open_air = dimension.info().has_sky ? sky * sky : 1.0f;
     frame.views.push_back(view);
     return frame;

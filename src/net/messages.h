@@ -131,10 +131,11 @@ struct WireDimension {
     std::string name;
     i32 min_y = 0, max_y = 0;
     bool has_sky = true;
+    i32 sea_level = 63;
     static constexpr auto fields =
         std::tuple{field<1>("id", &WireDimension::id), field<2>("name", &WireDimension::name, {.most = 256}),
                    field<3>("min_y", &WireDimension::min_y), field<4>("max_y", &WireDimension::max_y),
-                   field<5>("has_sky", &WireDimension::has_sky)};
+                   field<5>("has_sky", &WireDimension::has_sky), field<6>("sea_level", &WireDimension::sea_level)};
     friend bool operator==(const WireDimension&, const WireDimension&) = default;
 };
 

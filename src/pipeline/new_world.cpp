@@ -38,7 +38,7 @@ Result<TerrainPalette> make_terrain_palette(StateTable& states, BiomeTable& biom
 
 DimensionInfo new_overworld(bool generated) {
     DimensionInfo info;
-    if (generated) info.min_y = kTerrainMinY, info.max_y = kTerrainMaxY;
+    if (generated) info.min_y = kTerrainMinY, info.max_y = kTerrainMaxY, info.sea_level = kTerrainSeaLevel;
     return info;
 }
 

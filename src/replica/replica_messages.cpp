@@ -73,7 +73,7 @@ Result<> Replica::take(net::Welcome& message) {
         registry_ = options_.registry;
     }
     for (auto& d : message.dimensions) {
-        DimensionInfo info{DimensionId(d.id), std::move(d.name), d.min_y, d.max_y, d.has_sky};
+        DimensionInfo info{DimensionId(d.id), std::move(d.name), d.min_y, d.max_y, d.has_sky, d.sea_level};
         if (!sound(info)) return fail(ErrorCode::damaged, "a dimension has impossible bounds");
         dimensions_.push_back(std::move(info));
     }

@@ -31,6 +31,8 @@ struct View {
     bool mirrored = false;       // winding turns
     bool underwater = false;     // the eye is inside a liquid:
     Medium medium;               // this one
+    i32 sea_level = 63;          // where mist lies, blocks
+    bool misty = true;           // false: under a roof without sky there is none
     float open_air = 1;          // 0..1, of view 0: how open to the sky the eye stands; air in the dark does not shine
 };
 

@@ -62,7 +62,7 @@ void hear(ServerWorld& world, Session& session, net::Hello& hello) {
     welcome.player = session.id;
     for (const auto& [id, dimension] : world.dimensions) {
         const DimensionInfo& info = dimension.dimension.info();
-        welcome.dimensions.push_back({u32(id), info.name, info.min_y, info.max_y, info.has_sky});
+        welcome.dimensions.push_back({u32(id), info.name, info.min_y, info.max_y, info.has_sky, info.sea_level});
     }
     welcome.body = net::wire_body(session.body);
     welcome.tick = world.tick;

@@ -9,7 +9,7 @@ Level to_stored(const LevelRecord& v) {
 }
 
 Dimension to_stored(const DimensionInfo& v) {
-    return {v.name, v.min_y, v.max_y, v.has_sky};
+    return {v.name, v.min_y, v.max_y, v.has_sky, v.sea_level};
 }
 
 Column to_stored(const ColumnRecord& v) {
@@ -48,7 +48,7 @@ Result<LevelRecord> from_stored(const Level& v) {
 Result<DimensionInfo> from_stored(DimensionId id, const Dimension& v) {
     if (v.min_y >= v.max_y || v.min_y < -kWorldEdge || v.max_y > kWorldEdge || (v.min_y & 15) || (v.max_y & 15))
         return fail(ErrorCode::damaged, "a dimension's lowest and highest y are no range of chunks");
-    return DimensionInfo{id, v.name, v.min_y, v.max_y, v.has_sky};
+    return DimensionInfo{id, v.name, v.min_y, v.max_y, v.has_sky, v.sea_level};
 }
 
 Result<ColumnRecord> from_stored(const Column& v) {

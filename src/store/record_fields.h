@@ -49,9 +49,10 @@ struct Dimension { // dimension, by id
     std::string name;
     i32 min_y = 0, max_y = 0;
     bool has_sky = true;
+    i32 sea_level = 63;
     static constexpr auto fields =
         std::tuple{field<1>("name", &Dimension::name, {.most = 256}), field<2>("min_y", &Dimension::min_y),
-                   field<3>("max_y", &Dimension::max_y), field<4>("has_sky", &Dimension::has_sky)};
+                   field<3>("max_y", &Dimension::max_y), field<4>("has_sky", &Dimension::has_sky), field<5>("sea_level", &Dimension::sea_level)};
 };
 
 struct Column {             // column, by dimension, x, z

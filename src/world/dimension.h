@@ -17,6 +17,7 @@ struct DimensionInfo {
     std::string name = "minecraft:overworld";
     i32 min_y = -64, max_y = 320; // blocks exist for min_y <= y < max_y; multiples of 16
     bool has_sky = true;
+    i32 sea_level = 63; // the height of its lakes and seas, where mist lies
 };
 
 // For each of 256 block columns (index x | z << 4) the y above the highest block that takes sky light; the sky is open

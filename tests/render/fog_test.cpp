@@ -23,7 +23,7 @@ static double numeric_depth(const Mist& mist, double above, double rise, double 
 }
 
 TEST(Mist, DepthIsTheIntegralOfItsDensity) {
-    const Mist mist{0.001f, 0.02f, 63, 10};
+    const Mist mist{0.001f, 0.02f, 10};
     for (float above : {-40.0f, -3.0f, 0.0f, 2.0f, 15.0f, 80.0f})
         for (float rise : {-1.0f, -0.4f, -0.02f, -1e-5f, 0.0f, 1e-4f, 0.003f, 0.3f, 1.0f})
             for (float away : {0.5f, 7.0f, 60.0f, 300.0f}) {
@@ -69,7 +69,7 @@ TEST_F(FogTest, ShaderAndTracerHaveTheSameMist) {
     const auto framebuffer = gfx::make_framebuffer(attached, nullptr);
     const auto array = gfx::make_vertex_array();
     for (float above : {-20.0f, 0.5f, 12.0f, 60.0f}) {
-        const Mist mist{0.0011f, 0.017f, 63, 10};
+        const Mist mist{0.0011f, 0.017f, 10};
         const Vec4 u[9] = {{mist.haze, mist.mist, 1 / mist.height, 1}, {above, scene::mist_column(mist, above), 1, 0}};
         const auto buffer = gfx::make_buffer(sizeof u, 0, u);
         glBindBufferBase(GL_UNIFORM_BUFFER, 2, buffer.name());

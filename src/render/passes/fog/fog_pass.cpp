@@ -39,10 +39,10 @@ void FogPass::prepare(FrameContext& frame) {
     const u32 views = std::min<u32>(u32(frame.frame->views.size()), kViewsMost);
     for (u32 i = 0; i < views; ++i) {
         const scene::View& view = frame.frame->views[i];
-        const i32 base = i32(mist.base_y);
+        const i32 base = view.sea_level;
         const float above = std::clamp(float(i64(block_of(view.eye.at).y) - base) + frame.uniforms.views[i].fraction.y,
                                        kDeepest, kHighest);
-        const bool on = (fog.height || fog.volumetric) && !view.underwater && !frame.exact;
+        const bool on = view.misty && (fog.height || fog.volumetric) && !view.underwater && !frame.exact;
         u.eye[i] = {above, scene::mist_column(mist, above), on ? 1.0f : 0.0f, 0};
     }
     const auto slice = frame.ring->allocate(sizeof u, 256);
