@@ -14,6 +14,7 @@ namespace {
 
 // Degrees that the light may turn before a map is drawn anew. A step moves the shadow of a tree's top by less than a
 // tenth of its outline's width.
+constexpr float kWindEvery = 1.0f / 30; // seconds between the shadows of swaying plants
 constexpr float kStep[kCascadesMost] = {0.10f, 0.14f, 0.20f, 0.30f};
 constexpr float kJump = 1.0f; // beyond, no map may be left behind
 // Frames that a map rests after it was drawn, where only sections changed: while land streams in, it always has.
@@ -179,9 +180,10 @@ void ShadowPass::prepare(FrameContext& frame) {
         Cascade& c = cascades_[i];
         if (c.draw)
             fill(frame, i);
-        else if (c.valid && c.sways)
+        else if (c.valid && c.sways && std::abs(frame.frame->seconds - wind_seconds_) >= kWindEvery)
             c.draw = true; // the same list under another wind
         if (!c.draw) continue;
+        if (c.sways) wind_seconds_ = frame.frame->seconds;
         c.age = 0;
         c.inputs = upload_draws(frame, c.list, 0);
         for (const auto& commands : c.list.commands)

@@ -52,6 +52,7 @@ private:
     gfx::Sampler compared_, plain_;
     Effects::Shadows shadows_;
     bool on_ = false, sway_ = false;
+    float wind_seconds_ = 0; // FrameView::seconds of the nearest map's wind
     u32 size_ = 0, count_ = 0;
     std::array<float, kCascadesMost> ends_{};
     std::array<Cascade, kCascadesMost> cascades_;
