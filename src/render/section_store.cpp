@@ -139,9 +139,10 @@ u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
     std::sort(order.begin(), order.end());
     // Centers tell little of faces that lie one over the other and were merged differently, as water under ice.
     // Parallel faces have an exact order, that of their planes: they share the places that the centers gave them in
-    // that order.
+    // that order. Of two in one plane, as between glass and water, light leaves the one that looks at the eye last of
+    // what lies behind, so it is drawn first.
     std::vector<u32> places;
-    std::vector<std::tuple<i32, u32, u32>> parallel; // plane, place, quad
+    std::vector<std::tuple<i32, bool, u32, u32>> parallel; // plane, looks away, place, quad
     for (u32 axis = 0; axis < 3; ++axis) {
         places.clear(), parallel.clear();
         for (u32 place = 0; place < count; ++place) {
@@ -150,11 +151,12 @@ u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
             const u32 cell = axis == 0 ? q.x() : axis == 1 ? q.y() : q.z();
             const i32 plane = i32(cell) * 2 + (u32(q.face()) & 1 ? 2 : 0);
             places.push_back(place);
-            parallel.emplace_back(-std::abs(plane - eye[axis]), place, std::get<2>(order[place]));
+            const bool away = (u32(q.face()) & 1) ? eye[axis] < plane : eye[axis] > plane;
+            parallel.emplace_back(-std::abs(plane - eye[axis]), away, place, std::get<2>(order[place]));
         }
         std::sort(parallel.begin(), parallel.end());
         for (std::size_t i = 0; i < places.size(); ++i)
-            std::get<2>(order[places[i]]) = std::get<2>(parallel[i]);
+            std::get<2>(order[places[i]]) = std::get<3>(parallel[i]);
     }
     std::vector<Quad> sorted(count);
     for (u32 i = 0; i < count; ++i)

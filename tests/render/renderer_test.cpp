@@ -146,6 +146,13 @@ TEST_F(RendererTest, TranslucentQuadsAreSorted) {
                                         {3, Quad::cube({0, 8, 0}, 16, 4, Face::up, 255, red, TintKind::none, 0)}}));
     const Image sheets = draw(*renderer, bench::SampleScene::frame(33, 33, eye_at(8, 24, -20), 0, 33, 8));
     EXPECT_LT(int(sheets.at(16, 16)[0]) - int(sheets.at(16, 16)[1]), -30);
+    // Two faces in one plane, where glass touches water: that of the nearer block lies over the other's.
+    renderer->clear_sections();
+    renderer->set_section(
+        {0, 0, 0}, {},
+        mesh_of(QuadPass::translucent, {{5, wall(4, Face::south, red)}, {4, wall(5, Face::north, green)}}));
+    EXPECT_GT(look(-10, 0), 30);
+    EXPECT_LT(look(30, 180), -30);
 }
 
 TEST_F(RendererTest, ResizesAtAnyTime) {
