@@ -87,6 +87,22 @@ inline const std::string& test_content() {
     return root.path;
 }
 
+// Quads of one pass, and opaque ones, as a section; direction 6: model quads.
+inline SectionMesh quads_of(QuadPass pass, const std::vector<std::pair<u32, Quad>>& quads,
+                            const std::vector<std::pair<u32, Quad>>& solid = {}) {
+    SectionMesh mesh;
+    for (u32 g = 0; g < SectionMesh::kGroups; ++g) {
+        mesh.first[g] = u32(mesh.quads.size());
+        for (const auto& [direction, quad] : quads)
+            if (SectionMesh::group(pass, direction) == g) mesh.quads.push_back(quad);
+        for (const auto& [direction, quad] : solid)
+            if (SectionMesh::group(QuadPass::opaque, direction) == g) mesh.quads.push_back(quad);
+    }
+    mesh.first[SectionMesh::kGroups] = u32(mesh.quads.size());
+    mesh.connections = (u64(1) << 36) - 1;
+    return mesh;
+}
+
 class RenderTest : public testing::Test {
 protected:
     void SetUp() override {

@@ -25,18 +25,6 @@ static Quad wall(i32 z, Face face, TextureId texture) {
     return Quad::cube({0, 0, z}, 16, 16, face, 255, texture, TintKind::none, 0);
 }
 
-static SectionMesh mesh_of(QuadPass pass, std::vector<std::pair<u32, Quad>> quads) {
-    SectionMesh mesh;
-    for (u32 g = 0; g < SectionMesh::kGroups; ++g) {
-        mesh.first[g] = u32(mesh.quads.size());
-        for (const auto& [direction, quad] : quads)
-            if (SectionMesh::group(pass, direction) == g) mesh.quads.push_back(quad);
-    }
-    mesh.first[SectionMesh::kGroups] = u32(mesh.quads.size());
-    mesh.connections = (u64(1) << 36) - 1;
-    return mesh;
-}
-
 TEST_F(RendererTest, BuildsEveryPreset) {
     auto renderer = make_renderer();
     ASSERT_TRUE(renderer);
@@ -62,7 +50,7 @@ TEST_F(RendererTest, EveryPlaceLooksTheSame) {
             auto renderer = make_renderer(preset);
             ASSERT_TRUE(renderer);
             Effects effects = renderer->effects();
-            effects.sky.clouds = i32(Clouds::off); // they hang in the world: other places have others
+            effects.sky.clouds = i32(Clouds::off);               // they hang in the world: other places have others
             effects.fog.height = effects.fog.volumetric = false; // mist knows how high it lies
             ASSERT_TRUE(renderer->set_effects(effects));
             scene.give(*renderer, base);
@@ -116,10 +104,10 @@ TEST_F(RendererTest, TranslucentQuadsAreSorted) {
     renderer->set_background(true, {0, 0, 0});
     // Both sides of each pane, in one section.
     renderer->set_section({0, 0, 0}, {},
-                          mesh_of(QuadPass::translucent, {{4, wall(4, Face::north, red)},
-                                                          {5, wall(3, Face::south, red)},
-                                                          {4, wall(12, Face::north, green)},
-                                                          {5, wall(11, Face::south, green)}}));
+                          quads_of(QuadPass::translucent, {{4, wall(4, Face::north, red)},
+                                                           {5, wall(3, Face::south, red)},
+                                                           {4, wall(12, Face::north, green)},
+                                                           {5, wall(11, Face::south, green)}}));
     auto look = [&](double z, float yaw) {
         const Image image = draw(*renderer, bench::SampleScene::frame(33, 33, eye_at(8, 8, z), yaw, 0, 8));
         const u8* p = image.at(16, 16);
@@ -132,25 +120,25 @@ TEST_F(RendererTest, TranslucentQuadsAreSorted) {
     renderer->clear_sections();
     renderer->set_section(
         {0, 0, 0}, {},
-        mesh_of(QuadPass::translucent, {{4, wall(4, Face::north, red)}, {5, wall(3, Face::south, red)}}));
+        quads_of(QuadPass::translucent, {{4, wall(4, Face::north, red)}, {5, wall(3, Face::south, red)}}));
     renderer->set_section(
         {0, 0, 1}, {},
-        mesh_of(QuadPass::translucent, {{4, wall(4, Face::north, green)}, {5, wall(3, Face::south, green)}}));
+        quads_of(QuadPass::translucent, {{4, wall(4, Face::north, green)}, {5, wall(3, Face::south, green)}}));
     EXPECT_GT(look(-10, 0), 30);
     EXPECT_LT(look(40, 180), -30);
     // A small sheet below a large one, its center nearer to the eye: water under ice.
     renderer->clear_sections();
     renderer->set_section(
         {0, 0, 0}, {},
-        mesh_of(QuadPass::translucent, {{3, Quad::cube({0, 9, 0}, 16, 16, Face::up, 255, green, TintKind::none, 0)},
-                                        {3, Quad::cube({0, 8, 0}, 16, 4, Face::up, 255, red, TintKind::none, 0)}}));
+        quads_of(QuadPass::translucent, {{3, Quad::cube({0, 9, 0}, 16, 16, Face::up, 255, green, TintKind::none, 0)},
+                                         {3, Quad::cube({0, 8, 0}, 16, 4, Face::up, 255, red, TintKind::none, 0)}}));
     const Image sheets = draw(*renderer, bench::SampleScene::frame(33, 33, eye_at(8, 24, -20), 0, 33, 8));
     EXPECT_LT(int(sheets.at(16, 16)[0]) - int(sheets.at(16, 16)[1]), -30);
     // Two faces in one plane, where glass touches water: that of the nearer block lies over the other's.
     renderer->clear_sections();
     renderer->set_section(
         {0, 0, 0}, {},
-        mesh_of(QuadPass::translucent, {{5, wall(4, Face::south, red)}, {4, wall(5, Face::north, green)}}));
+        quads_of(QuadPass::translucent, {{5, wall(4, Face::south, red)}, {4, wall(5, Face::north, green)}}));
     EXPECT_GT(look(-10, 0), 30);
     EXPECT_LT(look(30, 180), -30);
 }
@@ -197,7 +185,7 @@ TEST_F(RendererTest, LightChangesWithoutAMesh) {
     registry.content_roots = {test_content()};
     const TextureId white = registry.texture_id("white");
     ASSERT_TRUE(renderer->load_textures(registry));
-    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    renderer->set_section({0, 0, 0}, {}, quads_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
     auto look = [&] {
         const Image image = draw(*renderer, bench::SampleScene::frame(33, 33, eye_at(8, 8, 2), 0, 0, 8));
         return std::array<int, 3>{image.at(16, 16)[0], image.at(16, 16)[1], image.at(16, 16)[2]};
@@ -234,13 +222,13 @@ TEST_F(RendererTest, RemovedSectionsAreGone) {
     ASSERT_TRUE(renderer->load_textures(registry));
     renderer->set_background(true, {1, 0, 1});
     const auto frame = bench::SampleScene::frame(33, 33, eye_at(8, 8, 2), 0, 0, 8);
-    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    renderer->set_section({0, 0, 0}, {}, quads_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
     EXPECT_EQ(count_magenta(draw(*renderer, frame)), 0u);
     renderer->remove_section({0, 0, 0}, {});
     EXPECT_FALSE(renderer->has_section({0, 0, 0}, {}));
     EXPECT_EQ(count_magenta(draw(*renderer, frame)), 33 * 33u);
     // Another dimension's sections are not drawn.
-    renderer->set_section({0, 0, 0}, DimensionId(7), mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    renderer->set_section({0, 0, 0}, DimensionId(7), quads_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
     EXPECT_EQ(count_magenta(draw(*renderer, frame)), 33 * 33u);
     EXPECT_EQ(renderer->stats().sections, 1u);
 }
@@ -252,7 +240,7 @@ TEST_F(RendererTest, ClipPlanesCutAndViewsAreNumbered) {
     const TextureId white = registry.texture_id("white");
     ASSERT_TRUE(renderer->load_textures(registry));
     renderer->set_background(true, {1, 0, 1});
-    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    renderer->set_section({0, 0, 0}, {}, quads_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
     auto frame = bench::SampleScene::frame(32, 32, eye_at(8, 8, 2), 0, 0, 8);
     frame.views[0].clip_plane = {1, 0, 0, 0}; // the left half: x grows to the left when looking south
     EXPECT_EQ(count_magenta(draw(*renderer, frame)), 16 * 32u);
@@ -272,7 +260,7 @@ TEST_F(RendererTest, OutlinesThePickedBlock) {
     registry.content_roots = {test_content()};
     const TextureId white = registry.texture_id("white");
     ASSERT_TRUE(renderer->load_textures(registry));
-    renderer->set_section({0, 0, 0}, {}, mesh_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
+    renderer->set_section({0, 0, 0}, {}, quads_of(QuadPass::opaque, {{4, wall(8, Face::north, white)}}));
     auto frame = bench::SampleScene::frame(200, 200, eye_at(8.5, 8.5, 4), 0, 0, 8);
     const Image plain = draw(*renderer, frame);
     frame.outlines.push_back({{DimensionId::overworld, {8, 8, 8}}, {{{0, 0, 0}, {1, 1, 1}}}});

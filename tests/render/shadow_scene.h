@@ -6,19 +6,6 @@
 
 namespace vitrail::render {
 
-// Quads of one pass as a section; direction 6: model quads.
-inline SectionMesh quads_of(QuadPass pass, const std::vector<std::pair<u32, Quad>>& quads) {
-    SectionMesh mesh;
-    for (u32 g = 0; g < SectionMesh::kGroups; ++g) {
-        mesh.first[g] = u32(mesh.quads.size());
-        for (const auto& [direction, quad] : quads)
-            if (SectionMesh::group(pass, direction) == g) mesh.quads.push_back(quad);
-    }
-    mesh.first[SectionMesh::kGroups] = u32(mesh.quads.size());
-    mesh.connections = (u64(1) << 36) - 1;
-    return mesh;
-}
-
 class ShadowTest : public RenderTest {
 protected:
     struct Sunlight {

@@ -12,21 +12,6 @@ namespace vitrail::render {
 
 namespace {
 
-SectionMesh mesh_of(QuadPass pass, std::vector<std::pair<u32, Quad>> quads,
-                    std::vector<std::pair<u32, Quad>> solid = {}) {
-    SectionMesh mesh;
-    for (u32 g = 0; g < SectionMesh::kGroups; ++g) {
-        mesh.first[g] = u32(mesh.quads.size());
-        for (const auto& [direction, quad] : quads)
-            if (SectionMesh::group(pass, direction) == g) mesh.quads.push_back(quad);
-        for (const auto& [direction, quad] : solid)
-            if (SectionMesh::group(QuadPass::opaque, direction) == g) mesh.quads.push_back(quad);
-    }
-    mesh.first[SectionMesh::kGroups] = u32(mesh.quads.size());
-    mesh.connections = (u64(1) << 36) - 1;
-    return mesh;
-}
-
 Quad sheet(u32 y, TextureId texture, TintKind tint, u64 flags, u32 side = 16) {
     return Quad::cube({0, i32(y), 0}, side, side, Face::up, 255, texture, tint, 0, flags);
 }
@@ -178,9 +163,9 @@ TEST_F(WaterTest, AbsorbsAlongTheTruePath) {
                 for (int lamp = 0; lamp < 2; ++lamp) {
                     renderer->clear_sections();
                     renderer->set_section({0, 0, 0}, {},
-                                          mesh_of(QuadPass::translucent,
-                                                  {{3, sheet(12, pond.water, TintKind::none, kQuadLiquid)}},
-                                                  {{3, sheet(12 - deep, pond.floor, TintKind::none, 0)}}));
+                                          quads_of(QuadPass::translucent,
+                                                   {{3, sheet(12, pond.water, TintKind::none, kQuadLiquid)}},
+                                                   {{3, sheet(12 - deep, pond.floor, TintKind::none, 0)}}));
                     LightBrick brick;
                     brick.uniform = false;
                     brick.cells.fill(Light(0, 0, 0, 0).bits);
@@ -223,8 +208,8 @@ TEST_F(WaterTest, WavesStandStillWhileTheCameraTurns) {
     effects.fog.density = 0;
     ASSERT_TRUE(renderer->set_effects(effects));
     renderer->set_section({0, 0, 0}, {},
-                          mesh_of(QuadPass::translucent, {{3, sheet(12, pond.water, TintKind::none, kQuadLiquid)}},
-                                  {{3, sheet(2, pond.floor, TintKind::none, 0)}}));
+                          quads_of(QuadPass::translucent, {{3, sheet(12, pond.water, TintKind::none, kQuadLiquid)}},
+                                   {{3, sheet(2, pond.floor, TintKind::none, 0)}}));
     // Brightness at a place of the world, looked up from eyes that differ by a turn alone: the ray is the same.
     const auto look = [&](float yaw, float pitch, Vec3 to, float seconds) {
         const WorldPos eye = eye_at(8.3, 17.1, 1.2);
@@ -261,7 +246,7 @@ TEST_F(WaterTest, SnellsWindow) {
     Effects effects = plain_water();
     ASSERT_TRUE(renderer->set_effects(effects));
     renderer->set_background(true, {4, 0, 0}); // the world above is red
-    SectionMesh mesh = mesh_of(QuadPass::translucent, {{3, sheet(12, pond.water, TintKind::none, kQuadLiquid)}});
+    SectionMesh mesh = quads_of(QuadPass::translucent, {{3, sheet(12, pond.water, TintKind::none, kQuadLiquid)}});
     for (i32 x = -1; x <= 1; ++x)
         for (i32 z = -1; z <= 1; ++z)
             renderer->set_section({x, 0, z}, {}, mesh);
@@ -316,8 +301,8 @@ TEST_F(WaterTest, NestedPanesMultiply) {
         const Vec3 bright = see({2, 2, 2}, sections, z, yaw), dark = see({0, 0, 0}, sections, z, yaw);
         return (bright - dark) * 0.5f;
     };
-    const SectionMesh a = mesh_of(QuadPass::translucent, pane(6, red)),
-                      b = mesh_of(QuadPass::translucent, pane(9, blue));
+    const SectionMesh a = quads_of(QuadPass::translucent, pane(6, red)),
+                      b = quads_of(QuadPass::translucent, pane(9, blue));
     for (const auto& [z, yaw] : {std::pair<double, float>{-20, 0}, {60, 180}}) {
         const Vec3 one = share({{{0, 0, 0}, a}}, z, yaw), other = share({{{0, 0, 1}, b}}, z, yaw);
         const Vec3 both = share({{{0, 0, 0}, a}, {{0, 0, 1}, b}}, z, yaw);
