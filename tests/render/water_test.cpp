@@ -66,8 +66,8 @@ TEST(WaterWaves, RepeatExactly) {
     for (int i = 0; i < 64; ++i) {
         const BlockPos at{i * 7, 0, -i * 13};
         const auto here = scene::wave_at(at, {0.25f, 0.5f}, 12.5f, 0.06f);
-        for (const i32 step : {256, -256, far, -far}) {
-            const auto there = scene::wave_at({at.x + step, 0, at.z - step}, {0.25f, 0.5f}, 12.5f, 0.06f);
+        for (const i32 step : {256, -256, far, -far}) { // coordinates wrap as the waves do
+            const auto there = scene::wave_at({i32(u32(at.x) + u32(step)), 0, i32(u32(at.z) - u32(step))}, {0.25f, 0.5f}, 12.5f, 0.06f);
             EXPECT_EQ(there.swell, here.swell);
             EXPECT_EQ(there.slope.x, here.slope.x);
         }
