@@ -29,10 +29,9 @@ enum class Unit : u32 {
     shadow_depth = 7, // depth array, read plainly
     ao = 8,           // of the screen
     sky = 9,          // the dome as a table
-    noise = 10,       // tiling noise (clouds)
-    blue_noise = 11,
-    fog = 12,      // light of the air
-    exposure = 13, // 1 x 1
+    clouds = 10,      // their shapes, tiling
+    fog = 12,         // light of the air
+    exposure = 13,    // 1 x 1
     // 14, 15: free for a pass's own use
 };
 
@@ -43,8 +42,8 @@ struct ViewDraws {
     std::vector<VisibleSection> visible; // nearest first
     DrawList list;
     TerrainInputs inputs;
-    // Where occlusion culling splits the list (passes/occlusion/): solid surfaces draw these two; `inputs` holds what they
-    // drew, once they have.
+    // Where occlusion culling splits the list (passes/occlusion/): solid surfaces draw these two; `inputs` holds what
+    // they drew, once they have.
     bool occlusion = false;
     TerrainInputs first, late;
 };
@@ -66,7 +65,6 @@ struct FrameContext {
     gfx::UploadRing* ring = nullptr;
     TerrainInputs terrain;      // what all draws of terrain share; list and view are missing
     u32 plain_array = 0;        // vertex array without attributes, for screen passes
-    u32 noise = 0;              // texture
     u32 target_framebuffer = 0; // "screen"
     FrameStats* stats = nullptr;
 };

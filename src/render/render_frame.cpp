@@ -129,9 +129,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     frame.textures = &impl.textures;
     frame.ring = &impl.ring;
     frame.plain_array = impl.plain_array.name();
-    frame.noise = impl.noise.name();
-    frame.target_framebuffer =
-        framebuffer == kOwnPicture ? impl.own_framebuffer(view.width, view.height) : framebuffer;
+    frame.target_framebuffer = framebuffer == kOwnPicture ? impl.own_framebuffer(view.width, view.height) : framebuffer;
     frame.stats = &stats;
     for (const auto& pass : impl.passes)
         pass->begin(frame);
@@ -169,8 +167,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     stats.triangles = stats.quads * 2;
     stats.quads_held = impl.sections.quads_held();
     stats.gpu_bytes = impl.sections.gpu_bytes() + impl.textures.gpu_bytes() + impl.ring.bytes() +
-                      impl.graph.target_bytes() + impl.models.bytes + impl.quad_indices.bytes + impl.noise.bytes() +
-                      impl.picture.bytes();
+                      impl.graph.target_bytes() + impl.models.bytes + impl.quad_indices.bytes + impl.picture.bytes();
     for (const auto& pass : impl.passes)
         stats.gpu_bytes += pass->gpu_bytes();
     stats.cpu_bytes = impl.sections.cpu_bytes();

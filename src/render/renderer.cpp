@@ -1,6 +1,5 @@
 #include "render/renderer_impl.h"
 
-#include "render/noise_texture.h"
 #include "render/passes/icon/icon_pass.h"
 
 #include <algorithm>
@@ -61,7 +60,6 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     impl.reserve_models(1024);
     std::vector<u32> white(256, 0xffffffffu);
     impl.fixed_tints = gfx::make_buffer(white.size() * 4, GL_DYNAMIC_STORAGE_BIT, white.data());
-    impl.noise = make_noise_texture();
     VX_TRY(made->load_textures(BlockRegistry()));
     return made;
 }

@@ -34,7 +34,6 @@ struct Renderer::Impl {
     u32 models_held = 0, models_capacity = 0;
     std::size_t fixed_tints_held = 0;
     gfx::VertexArray terrain_array, plain_array;
-    gfx::Texture noise;
     ProgramRef icon;
 
     gfx::Texture picture;

@@ -65,7 +65,7 @@ void SkyPass::draw(const gfx::PassContext& p) const {
         set(cloud_light, sky.cloud_light, 0);
         set(cloud_direction, sky.cloud_direction, 0);
     }
-    glBindTextureUnit(u32(Unit::noise), clouds_.name());
+    glBindTextureUnit(u32(Unit::clouds), clouds_.name());
     program.run(p, frame_->plain_array, {"color"}, {});
 }
 
