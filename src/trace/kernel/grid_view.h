@@ -1,0 +1,74 @@
+// The grid as kernels read it: a window of chunks around the player that wraps around (a chunk's slot is its position
+// modulo the window), in three levels of 4^3: areas of 4^3 chunks, chunks of 4^3 bricks, bricks of 4^3 cells; below
+// them each chunk's palette indices as BlockStorage packs them. Kernel-safe; trace/grid/grid.h builds it.
+//
+// A second set of masks serves rays inside water: there a cell counts when it is anything but full water.
+//
+// Bit of a cell in its brick, of a brick in its chunk and of a chunk in its area: x | z << 2 | y << 4 (each 0..3).
+#pragma once
+
+#include "trace/kernel/ray.h"
+
+namespace vitrail::trace {
+
+// What traversal asks: where rays through air stop, or where rays through water stop.
+enum class Through : u8 { air = 0, water = 1 };
+
+inline constexpr u32 kNoMasks = 0;  // mask block 0: all empty
+inline constexpr u32 kAllMasks = 1; // mask block 1: every cell
+
+struct GridChunk {
+    u64 bricks[2]; // by Through: bricks with a cell that stops such a ray
+    u32 masks[2];  // by Through: block of 64 words in GridView::masks, a word a brick
+    u32 opaque;    // block of masks: cells that are opaque cubes without anything more to ask (no cutout, no model)
+    u32 palette;   // first entry in GridView::palettes (state ids)
+    u32 indices;   // first word in GridView::indices; 64 words a bit of `bits`; order of cells: LocalPos::index
+    u32 bits;      // 0 (uniform), 1, 2, 4, 8, 16
+    u32 tints;     // block of kTintWords words in GridView::tints
+};
+
+struct GridView {
+    IVec3 first;                              // least chunk of the window, in chunks; beyond the window there is air
+    u32 bits_x = 0, bits_y = 0, bits_z = 0;   // log2 of the window's size in chunks, 2..7
+    const u64* areas[2] = {nullptr, nullptr}; // by Through; slot of an area: as of a chunk, in units of 4
+    const GridChunk* chunks = nullptr;        // by slot
+    const u64* masks = nullptr;
+    const u32* palettes = nullptr;
+    const u64* indices = nullptr;
+    const u32* tints = nullptr;
+};
+
+inline constexpr u32 kTintWords = 108; // grass, foliage, water: 36 sRGB RGBA8 texels each (scene/tint_grid.h)
+
+VX_HD bool in_window(const GridView& g, IVec3 chunk) {
+    return (u32(chunk.x) - u32(g.first.x)) >> g.bits_x == 0 && (u32(chunk.y) - u32(g.first.y)) >> g.bits_y == 0 &&
+           (u32(chunk.z) - u32(g.first.z)) >> g.bits_z == 0;
+}
+VX_HD u32 slot_of(const GridView& g, IVec3 chunk) {
+    const u32 x = u32(chunk.x) & ((1u << g.bits_x) - 1), y = u32(chunk.y) & ((1u << g.bits_y) - 1),
+              z = u32(chunk.z) & ((1u << g.bits_z) - 1);
+    return x | z << g.bits_x | y << (g.bits_x + g.bits_z);
+}
+// Of an area: any chunk of it. The window is aligned to areas.
+VX_HD u32 area_slot_of(const GridView& g, IVec3 chunk) {
+    const u32 x = (u32(chunk.x) & ((1u << g.bits_x) - 1)) >> 2, y = (u32(chunk.y) & ((1u << g.bits_y) - 1)) >> 2,
+              z = (u32(chunk.z) & ((1u << g.bits_z) - 1)) >> 2;
+    return x | z << (g.bits_x - 2) | y << (g.bits_x + g.bits_z - 4);
+}
+
+VX_HD u32 state_in(const GridView& g, const GridChunk& c, u32 cell) { // cell: LocalPos::index
+    u32 index = 0;
+    if (c.bits) {
+        const u32 bit = cell * c.bits;
+        index = u32(g.indices[c.indices + (bit >> 6)] >> (bit & 63)) & ((1u << c.bits) - 1);
+    }
+    return g.palettes[c.palette + index];
+}
+// 0 (air) outside of the window and where nothing is held.
+VX_HD u32 state_at(const GridView& g, IVec3 cell) {
+    const IVec3 chunk{cell.x >> 4, cell.y >> 4, cell.z >> 4};
+    if (!in_window(g, chunk)) return 0;
+    return state_in(g, g.chunks[slot_of(g, chunk)], u32(cell.x & 15) | u32(cell.z & 15) << 4 | u32(cell.y & 15) << 8);
+}
+
+} // namespace vitrail::trace
