@@ -1,11 +1,11 @@
 #include "render/section_store.h"
 
 #include "base/assert.h"
+#include "render/translucent_order.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <epoxy/gl.h>
-#include <tuple>
 
 namespace vitrail::render {
 
@@ -57,10 +57,14 @@ void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
     section.first = mesh.first;
     const u32 translucent_first = mesh.first[SectionMesh::group(QuadPass::translucent, 0)];
     section.translucent.assign(mesh.quads.begin() + translucent_first, mesh.quads.end());
+    cut_where_planes_cross(section.translucent);
     section.translucent.shrink_to_fit();
+    for (u32 direction = 1; direction <= SectionMesh::kDirections; ++direction) // sorting mixes them: the first has all
+        section.first[SectionMesh::group(QuadPass::translucent, direction)] =
+            translucent_first + u32(section.translucent.size());
     section.sorted_from = {-128, 0, 0};
     if (mesh.quads.empty()) return;
-    const u32 count = u32(mesh.quads.size());
+    const u32 count = section.first.back();
     std::optional<u32> offset = ranges_.allocate(count);
     if (!offset) {
         const u32 old = ranges_.capacity();
@@ -71,8 +75,13 @@ void SectionStore::set(SectionKey key, const SectionMesh& mesh) {
     }
     section.first_quad = *offset, section.quad_count = count;
     places_[section.index].quad_count = count;
-    glNamedBufferSubData(quads_.name(), GLintptr(u64(*offset) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)),
-                         mesh.quads.data());
+    const auto write = [&](u32 first, u32 quads, const Quad* data) {
+        if (quads > 0)
+            glNamedBufferSubData(quads_.name(), GLintptr((u64(*offset) + first) * sizeof(Quad)),
+                                 GLsizeiptr(u64(quads) * sizeof(Quad)), data);
+    };
+    write(0, translucent_first, mesh.quads.data());
+    write(translucent_first, count - translucent_first, section.translucent.data());
 }
 
 void SectionStore::set_light(SectionKey key, const LightBrick& brick) {
@@ -120,51 +129,10 @@ u32 SectionStore::sort_translucent(Section& section, std::array<i8, 3> from) {
     section.sorted_from = from;
     const u32 count = u32(section.translucent.size());
     if (count < 2) return 0;
-    // Doubled coordinates: centers of merged quads lie on half cells.
-    const i32 eye[3] = {from[0] * 2 + 1, from[1] * 2 + 1, from[2] * 2 + 1};
-    std::vector<std::tuple<u32, u64, u32>> order(count);
-    for (u32 i = 0; i < count; ++i) {
-        const Quad q = section.translucent[i];
-        i32 c[3] = {i32(q.x()) * 2 + 1, i32(q.y()) * 2 + 1, i32(q.z()) * 2 + 1};
-        if (!q.is_model()) {
-            const u32 axis = u32(q.face()) >> 1, u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
-            c[u] += i32(q.w()) - 1, c[v] += i32(q.h()) - 1;
-            c[axis] += u32(q.face()) & 1 ? 1 : -1;
-        }
-        u32 distance2 = 0;
-        for (int k = 0; k < 3; ++k)
-            distance2 += u32((c[k] - eye[k]) * (c[k] - eye[k]));
-        order[i] = {~distance2, q.bits, i}; // far first; equal ones in an order that no earlier eye has a say in
-    }
-    std::sort(order.begin(), order.end());
-    // Centers tell little of faces that lie one over the other and were merged differently, as water under ice.
-    // Parallel faces have an exact order, that of their planes: they share the places that the centers gave them in
-    // that order. Of two in one plane, as between glass and water, light leaves the one that looks at the eye last of
-    // what lies behind, so it is drawn first.
-    std::vector<u32> places;
-    std::vector<std::tuple<i32, bool, u32, u32>> parallel; // plane, looks away, place, quad
-    for (u32 axis = 0; axis < 3; ++axis) {
-        places.clear(), parallel.clear();
-        for (u32 place = 0; place < count; ++place) {
-            const Quad q = section.translucent[std::get<2>(order[place])];
-            if (q.is_model() || u32(q.face()) >> 1 != axis) continue;
-            const u32 cell = axis == 0 ? q.x() : axis == 1 ? q.y() : q.z();
-            const i32 plane = i32(cell) * 2 + (u32(q.face()) & 1 ? 2 : 0);
-            places.push_back(place);
-            const bool away = (u32(q.face()) & 1) ? eye[axis] < plane : eye[axis] > plane;
-            parallel.emplace_back(-std::abs(plane - eye[axis]), away, place, std::get<2>(order[place]));
-        }
-        std::sort(parallel.begin(), parallel.end());
-        for (std::size_t i = 0; i < places.size(); ++i)
-            std::get<2>(order[places[i]]) = std::get<3>(parallel[i]);
-    }
-    std::vector<Quad> sorted(count);
-    for (u32 i = 0; i < count; ++i)
-        sorted[i] = section.translucent[std::get<2>(order[i])];
+    sort_back_to_front(section.translucent, from);
     const u32 at = section.first_quad + section.first[SectionMesh::group(QuadPass::translucent, 0)];
     glNamedBufferSubData(quads_.name(), GLintptr(u64(at) * sizeof(Quad)), GLsizeiptr(u64(count) * sizeof(Quad)),
-                         sorted.data());
-    section.translucent = std::move(sorted);
+                         section.translucent.data());
     return count;
 }
 

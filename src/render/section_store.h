@@ -66,7 +66,7 @@ public:
     u32 slot_count() const { return slot_count_; } // slots lie below it
 
     // Sorts the translucent quads of a section back to front as seen from a cell -1..16 on each axis of it, where it
-    // has not been sorted from there; the number of quads moved.
+    // has not been sorted from there (translucent_order.h); the number of quads moved.
     u32 sort_translucent(Section& section, std::array<i8, 3> from);
 
     u32 quad_buffer() const { return quads_.name(); }
