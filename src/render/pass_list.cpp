@@ -2,6 +2,7 @@
 
 #include "render/passes/bloom/bloom_pass.h"
 #include "render/passes/exposure/exposure_pass.h"
+#include "render/passes/film/film_pass.h"
 #include "render/passes/fog/fog_pass.h"
 #include "render/passes/fxaa/fxaa_pass.h"
 #include "render/passes/lighting/lighting_pass.h"
@@ -18,27 +19,39 @@
 
 namespace vitrail::render {
 
-std::vector<std::unique_ptr<RenderPass>> make_passes() {
-    std::vector<std::unique_ptr<RenderPass>> passes;
-    passes.push_back(std::make_unique<ShadowPass>());
+template <class Pass>
+static Pass* add(PassList& list, bool raster, bool traced) {
+    auto made = std::make_unique<Pass>();
+    Pass* pass = made.get();
+    list.all.push_back(std::move(made));
+    if (raster) list.raster.push_back(pass);
+    if (traced) list.traced.push_back(pass);
+    return pass;
+}
+
+PassList make_passes() {
+    PassList list;
+    add<ShadowPass>(list, true, false);
     // Solid surfaces.
-    passes.push_back(std::make_unique<TerrainPass>());
-    passes.push_back(std::make_unique<SsaoPass>());
-    passes.push_back(std::make_unique<LightingPass>());
-    passes.push_back(std::make_unique<SkyPass>());
-    passes.push_back(std::make_unique<SceneCopyPass>());
-    passes.push_back(std::make_unique<ReflectionsPass>());
+    add<TerrainPass>(list, true, false);
+    add<SsaoPass>(list, true, false);
+    add<LightingPass>(list, true, false);
+    add<SkyPass>(list, true, false);
+    add<SceneCopyPass>(list, true, false);
+    add<ReflectionsPass>(list, true, false);
     // What lets light through, and the air.
-    passes.push_back(std::make_unique<WaterPass>());
-    passes.push_back(std::make_unique<FogPass>());
-    passes.push_back(std::make_unique<OutlinePass>());
+    add<WaterPass>(list, true, false);
+    add<FogPass>(list, true, false);
+    // All of these at once, by the path tracer.
+    list.film = add<FilmPass>(list, false, true);
+    add<OutlinePass>(list, true, true);
     // The eye.
-    passes.push_back(std::make_unique<TaaPass>());
-    passes.push_back(std::make_unique<ExposurePass>());
-    passes.push_back(std::make_unique<BloomPass>());
-    passes.push_back(std::make_unique<TonemapPass>());
-    passes.push_back(std::make_unique<FxaaPass>());
-    return passes;
+    add<TaaPass>(list, true, false);
+    add<ExposurePass>(list, true, true);
+    add<BloomPass>(list, true, true);
+    add<TonemapPass>(list, true, true);
+    add<FxaaPass>(list, true, true);
+    return list;
 }
 
 } // namespace vitrail::render

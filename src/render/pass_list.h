@@ -1,4 +1,5 @@
-// The passes of the raster renderer in the order in which they are declared and drawn.
+// The passes in the order in which they are declared and drawn: of a rasterized frame, and of one whose light was
+// traced (passes/film), which share those of the eye.
 #pragma once
 
 #include "render/passes/pass.h"
@@ -8,6 +9,13 @@
 
 namespace vitrail::render {
 
-std::vector<std::unique_ptr<RenderPass>> make_passes();
+class FilmPass;
+
+struct PassList {
+    std::vector<std::unique_ptr<RenderPass>> all;
+    std::vector<RenderPass*> raster, traced;
+    FilmPass* film = nullptr;
+};
+PassList make_passes();
 
 } // namespace vitrail::render

@@ -18,7 +18,7 @@ Result<> Renderer::Impl::declare(bool stencil) {
     graph.clear();
     graph.add_external("screen");
     DeclareContext declaring{graph, effects, stencil};
-    for (const auto& pass : passes)
+    for (RenderPass* pass : active())
         pass->declare(declaring);
     VX_TRY(graph.compile());
     if (timing) graph.set_timing(true);
@@ -108,7 +108,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
         impl.shader_error = built ? "" : built.error().message;
         if (!built) log_warning(impl.shader_error);
     }
-    const bool stencil = view.views.size() > 1;
+    const bool stencil = view.views.size() > 1 && !impl.traced;
     if (!impl.declared || stencil != impl.declared_stencil) VX_TRY(impl.declare(stencil));
     VX_TRY(impl.graph.resize(view.width, view.height));
 
@@ -131,7 +131,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     frame.plain_array = impl.plain_array.name();
     frame.target_framebuffer = framebuffer == kOwnPicture ? impl.own_framebuffer(view.width, view.height) : framebuffer;
     frame.stats = &stats;
-    for (const auto& pass : impl.passes)
+    for (RenderPass* pass : impl.active())
         pass->begin(frame);
 
     impl.ring.begin_frame();
@@ -139,7 +139,8 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
                                          impl.background_on, impl.background);
     impl.textures.animate(view.seconds);
     frame.terrain = impl.terrain_inputs();
-    frame.views.resize(std::min<std::size_t>(view.views.size(), kViewsMost));
+    // A film needs no sections: its rays found what is seen.
+    frame.views.resize(impl.traced ? 0 : std::min<std::size_t>(view.views.size(), kViewsMost));
     for (u32 i = 0; i < frame.views.size(); ++i)
         impl.prepare_view(i, view.views[i]);
     const u64 culled = now_ns();
@@ -152,7 +153,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     for (u32 unit = 0; unit < 16; ++unit)
         glBindSampler(unit, 0); // a user interface may have left one
-    for (const auto& pass : impl.passes)
+    for (RenderPass* pass : impl.active())
         pass->prepare(frame);
     const auto slice = impl.ring.allocate(sizeof frame.uniforms, 256);
     std::memcpy(slice.data, &frame.uniforms, sizeof frame.uniforms);
@@ -168,7 +169,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     stats.quads_held = impl.sections.quads_held();
     stats.gpu_bytes = impl.sections.gpu_bytes() + impl.textures.gpu_bytes() + impl.ring.bytes() +
                       impl.graph.target_bytes() + impl.models.bytes + impl.quad_indices.bytes + impl.picture.bytes();
-    for (const auto& pass : impl.passes)
+    for (const auto& pass : impl.passes.all)
         stats.gpu_bytes += pass->gpu_bytes();
     stats.cpu_bytes = impl.sections.cpu_bytes();
     stats.passes_ms = impl.graph.times_ms();

@@ -1,5 +1,6 @@
 #include "render/renderer_impl.h"
 
+#include "render/passes/film/film_pass.h"
 #include "render/passes/icon/icon_pass.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ static gfx::Buffer make_quad_indices() {
 
 Result<> Renderer::Impl::build(const Effects& wanted) {
     const BuildContext build{shaders, wanted, context, compute};
-    for (const auto& pass : passes)
+    for (const auto& pass : passes.all)
         VX_TRY(pass->build(build));
     VX_TRY_ASSIGN(icon, shaders.program("icon/icon.vert.glsl", "icon/icon.frag.glsl"));
     return {};
@@ -144,11 +145,17 @@ const Effects& Renderer::effects() const {
 }
 void Renderer::forget_frames() {
     impl_->before = {};
-    for (const auto& pass : impl_->passes)
+    for (const auto& pass : impl_->passes.all)
         pass->forget();
 }
 const std::string& Renderer::shader_error() const {
     return impl_->shader_error;
+}
+void Renderer::show_film(u32 texture) {
+    const bool traced = texture != 0;
+    impl_->passes.film->set_film(texture);
+    if (traced != impl_->traced) impl_->declared = false;
+    impl_->traced = traced;
 }
 void Renderer::set_timing(bool on) {
     impl_->graph.set_timing(on);

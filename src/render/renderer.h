@@ -109,6 +109,9 @@ public:
     void forget_frames();
     // Why the shaders of `shader_folder` as they are now do not build; empty where they do.
     const std::string& shader_error() const;
+    // Frames show this OpenGL texture instead of drawing sections: linear light as rgb, blocks along the ray as alpha (0:
+    // sky), first row on top, of any size; it must live until the last frame of it. 0: sections again.
+    void show_film(u32 texture);
     void set_timing(bool on); // fills FrameStats::passes_ms; nothing waits for the answers
     // For tests: draws this (linear RGB) instead of the sky, without fog, exposure and tone curve.
     void set_background(bool on, Vec3 color = {});

@@ -23,7 +23,8 @@ struct Renderer::Impl {
     ShaderLibrary shaders;
     std::string shader_error;
     Effects effects;
-    std::vector<std::unique_ptr<RenderPass>> passes;
+    PassList passes;
+    bool traced = false; // the frame shows a film
     gfx::FrameGraph graph;
     bool declared = false, declared_stencil = false; // the graph is as effects and views want it
 
@@ -49,6 +50,7 @@ struct Renderer::Impl {
     FrameStats stats;
 
     Result<> build(const Effects& wanted);
+    const std::vector<RenderPass*>& active() const { return traced ? passes.traced : passes.raster; }
     Result<> declare(bool stencil);
     u32 own_framebuffer(u32 width, u32 height);
     TerrainInputs terrain_inputs() const;
