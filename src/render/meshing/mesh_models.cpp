@@ -1,6 +1,7 @@
 #include "render/meshing/mesh_scratch.h"
 
 #include "base/hash.h"
+#include "scene/liquid_surface.h"
 
 #include <algorithm>
 #include <bit>
@@ -35,31 +36,19 @@ bool test(const PaddedMask& m, i32 x, i32 y, i32 z) { // section coordinates -1.
     return m.rows[y + 1][z + 1] >> (x + 1) & 1;
 }
 
-// Height of the surface, 1/256 block, where four cells meet: full where one of them has the fluid above it too, else
-// the mean of those that hold it.
-i32 corner_height(const MeshInput& input, const PaddedMask& fluid, u16 fluid_id, i32 x, i32 y, i32 z) {
-    i32 sum = 0, count = 0;
-    for (i32 dz = -1; dz <= 0; ++dz)
-        for (i32 dx = -1; dx <= 0; ++dx) {
-            if (!test(fluid, x + dx, y, z + dz)) continue;
-            if (test(fluid, x + dx, y + 1, z + dz)) return kModelUnit;
-            const LiquidLook* look = input.models->liquid(state_at(input, x + dx, y, z + dz, StateId::air));
-            if (!look || look->fluid != fluid_id) continue;
-            sum += look->height;
-            ++count;
-        }
-    return count == 0 ? kModelUnit - scene::kLiquidDropUnits : (sum / count + 2) & ~3; // few heights, few model quads
+// What scene/liquid_surface.h asks of a cell.
+i32 liquid_in(const MeshInput& input, const PaddedMask& fluid, u16 fluid_id, i32 x, i32 y, i32 z) {
+    if (!test(fluid, x, y, z)) return scene::kLiquidNone;
+    if (test(fluid, x, y + 1, z)) return scene::kLiquidUnderLiquid;
+    const LiquidLook* look = input.models->liquid(state_at(input, x, y, z, StateId::air));
+    return look && look->fluid == fluid_id ? look->height : scene::kLiquidNone;
 }
-
-struct Slope {
-    i32 h00, h10, h11, h01; // at (x, z): 00 least corner, 10 along x
-};
 
 u64 model_bits(u32 index) {
     return u64(index & 2047) << 12 | 1ull << 23 | u64(index >> 11) << 24;
 }
 
-ModelQuad top_quad(const Slope& s) {
+ModelQuad top_quad(const scene::LiquidSlope& s) {
     ModelQuad q;
     const i16 u = kModelUnit;
     q.corners = {{{0, i16(s.h01), u, 0}, {u, i16(s.h11), u, u}, {u, i16(s.h10), 0, u}, {0, i16(s.h00), 0, 0}}};
@@ -73,7 +62,7 @@ ModelQuad top_quad(const Slope& s) {
 }
 
 // A side from the cell's bottom to the surface.
-ModelQuad side_quad(Face face, const Slope& s) {
+ModelQuad side_quad(Face face, const scene::LiquidSlope& s) {
     const i16 u = kModelUnit;
     ModelQuad q;
     const auto put = [&](i32 x0, i32 z0, i32 h0, i32 x1, i32 z1, i32 h1) { // left and right as seen from outside
@@ -172,10 +161,8 @@ void mesh_fluid(const MeshInput& input, MeshScratch::Impl& s, const LiquidLook& 
             for (u32 todo = tops | sides; todo; todo &= todo - 1) {
                 const u32 x = u32(std::countr_zero(todo));
                 const i32 bx = i32(x) - 1, by = i32(y) - 1, bz = i32(z) - 1;
-                const auto height = [&](i32 dx, i32 dz) {
-                    return corner_height(input, fluid, look.fluid, bx + dx, by, bz + dz);
-                };
-                const Slope slope{height(0, 0), height(1, 0), height(1, 1), height(0, 1)};
+                const scene::LiquidSlope slope = scene::liquid_slope(
+                    [&](i32 dx, i32 dz) { return liquid_in(input, fluid, look.fluid, bx + dx, by, bz + dz); });
                 const auto add = [&](const ModelQuad& q, u64 bits) {
                     const u32 index = models.intern_quad(q);
                     if (index < scene::BlockModels::kMaxModelQuads)

@@ -1,0 +1,88 @@
+// Surfaces of liquids inside a cell. Kernel-safe.
+//
+// A fluid is known by its medium: a cell holds it where its state's `medium` is the fluid's and the state is a liquid
+// or a model that stands in it. Its surface lies inside the cell unless the cell above holds it too; its other borders
+// are the cell's faces, as high as the surface. Hits of a surface are of HitKind::quad with Hit::quad = kLiquidSurface,
+// u and v being x and z in the cell; hits of the faces are of HitKind::cube.
+#pragma once
+
+#include "scene/liquid_surface.h"
+#include "trace/kernel/scene_view.h"
+
+namespace vitrail::trace {
+
+inline constexpr u32 kLiquidSurface = 0xffffffff;
+
+// Where the fluid of this medium ends in a cell.
+struct LiquidTop {
+    scene::LiquidSlope slope; // 1/256 block
+    bool full = false;        // the fluid lies above too: no surface
+    VX_HD bool level() const { return slope.h00 == slope.h10 && slope.h00 == slope.h11 && slope.h00 == slope.h01; }
+};
+
+// What scene/liquid_surface.h asks of a cell.
+VX_HD i32 liquid_in(const SceneView& s, IVec3 cell, u32 medium) {
+    const StateRecord& r = s.states[state_at(s.grid, cell)];
+    if (r.medium != medium) return scene::kLiquidNone;
+    const StateRecord& above = s.states[state_at(s.grid, {cell.x, cell.y + 1, cell.z})];
+    return above.medium == medium ? scene::kLiquidUnderLiquid : i32(r.liquid_height) + 1;
+}
+
+// The cell holds the fluid.
+VX_HD LiquidTop liquid_top(const SceneView& s, IVec3 cell, u32 medium) {
+    LiquidTop top;
+    top.full = s.states[state_at(s.grid, {cell.x, cell.y + 1, cell.z})].medium == medium;
+    if (top.full) {
+        top.slope = {scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull};
+        return top;
+    }
+    // Each of the nine cells once.
+    i32 of[9];
+    for (i32 i = 0; i < 9; ++i)
+        of[i] = liquid_in(s, {cell.x + i % 3 - 1, cell.y, cell.z + i / 3 - 1}, medium);
+    top.slope = scene::liquid_slope([&](i32 dx, i32 dz) { return of[(dx + 1) + (dz + 1) * 3]; });
+    return top;
+}
+
+// Blocks above the cell's bottom, at x, z in the cell.
+VX_HD float liquid_height_at(const LiquidTop& top, float x, float z) {
+    const scene::LiquidSlope& h = top.slope;
+    const float y = x + z <= 1 ? float(h.h00) + float(h.h10 - h.h00) * x + float(h.h01 - h.h00) * z
+                               : float(h.h11) + float(h.h11 - h.h01) * (x - 1) + float(h.h11 - h.h10) * (z - 1);
+    return y * (1.0f / 256);
+}
+
+// Unit, upwards.
+VX_HD Vec3 liquid_normal(const LiquidTop& top, float x, float z) {
+    const scene::LiquidSlope& h = top.slope;
+    const float gx = x + z <= 1 ? float(h.h10 - h.h00) : float(h.h11 - h.h01),
+                gz = x + z <= 1 ? float(h.h01 - h.h00) : float(h.h11 - h.h10);
+    return normalized({-gx, 256, -gz});
+}
+
+// The first place where a ray goes through the surface downwards (`leaving`: upwards, out of the fluid), t_min <= t <=
+// t_max. from: relative to the cell's least corner; dir: any length. The ray may run beyond the cell: places beside it
+// do not count.
+VX_HD bool hit_liquid_top(const LiquidTop& top, Vec3 from, Vec3 dir, float t_min, float t_max, bool leaving, float& t) {
+    if (top.full) return false;
+    const scene::LiquidSlope& h = top.slope;
+    bool found = false;
+    for (u32 part = 0; part < 2; ++part) {
+        const bool far_part = part == 1; // the triangle at (1, 1)
+        const float h0 = float(far_part ? h.h10 + h.h01 - h.h11 : h.h00) * (1.0f / 256),
+                    gx = float(far_part ? h.h11 - h.h01 : h.h10 - h.h00) * (1.0f / 256),
+                    gz = float(far_part ? h.h11 - h.h10 : h.h01 - h.h00) * (1.0f / 256);
+        const float rise = dir.y - gx * dir.x - gz * dir.z; // above the plane, a unit of t
+        if (leaving ? rise <= 0 : rise >= 0) continue;
+        const float at = -(from.y - h0 - gx * from.x - gz * from.z) / rise;
+        if (!(at >= t_min && at <= t_max)) continue;
+        const float x = from.x + dir.x * at, z = from.z + dir.z * at;
+        constexpr float kSeam = 1e-5f; // the triangles overlap by a hair, so that no ray slips between them
+        if (far_part ? x + z < 1 - kSeam : x + z > 1 + kSeam) continue;
+        if (x < -kSeam || x > 1 + kSeam || z < -kSeam || z > 1 + kSeam) continue;
+        t = at, t_max = at, found = true;
+    }
+    return found;
+}
+
+} // namespace vitrail::trace
