@@ -21,19 +21,6 @@ struct PixelSample {
     u32 surface = 0;      // state and face hashed: another surface has another number
 };
 
-// What the film keeps a pixel; planes of float unless said. `samples` grows while the view rests.
-struct FilmView {
-    u32 width = 0, height = 0;
-    // Sums over samples since the view last changed (progressive rendering).
-    Vec3* sum = nullptr; // radiance
-    Vec3* sum_albedo = nullptr;
-    Vec3* sum_normal = nullptr;
-    float* sum_distance = nullptr;
-    u32 samples = 0;
-    // Of this frame: one record a pixel.
-    PixelSample* frame = nullptr;
-};
-
 VX_HD Vec3 radiance_of(const PixelSample& p) {
     return p.base + p.albedo * p.light + p.air;
 }

@@ -1,0 +1,103 @@
+// The film's memory and what its stages are told of a frame: plain pointers of one device. Kernel-safe.
+//
+// Two kinds of planes, row by row from the top:
+//   level   width * height entries of Vec4 or u32: index y * width + x
+//   framed  floats with kFrame of margin around, so that filters read neighbors without asking for the border (the
+//           margin's inverse depth, kNothing, belongs to no surface): index y * stride + x, the pointer is pixel 0, 0's
+#pragma once
+
+#include "trace/kernel/camera.h"
+#include "trace/kernel/pixel.h"
+
+namespace vitrail::trace {
+
+inline constexpr i32 kFrame = 48;          // pixels on each side; the widest filter reaches 32, vectors run 15 over
+inline constexpr float kNothing = -1e3f;   // inverse depth of the margin
+inline constexpr float kMissing = -1;      // red of light where this frame has no sample
+inline constexpr u32 kTile = 4;            // side of the tiles that watch for changes, pixels
+inline constexpr float kLongest = 4096;    // of a history, frames (at rest; in motion FilmFrame::longest)
+inline constexpr float kFastLength = 5;    // frames of the short history
+inline constexpr float kMostLight = 1e12f; // radiance beyond is no light but a fault
+
+// Framed planes: three or four floats a pixel.
+struct Framed3 {
+    float *r = nullptr, *g = nullptr, *b = nullptr;
+};
+struct Framed4 {
+    float *r = nullptr, *g = nullptr, *b = nullptr;
+    float* v = nullptr; // variance of the luminance
+};
+
+// What is kept of a frame's first surfaces.
+struct FilmGuides {
+    Framed3 normal;                 // x, y, z
+    float* inverse_depth = nullptr; // framed; 1 / blocks along the view's axis: linear over a flat surface. 0: sky
+    u32* surface = nullptr;
+};
+
+// What is kept of the frames before (level).
+struct FilmHistory {
+    Vec4* light = nullptr; // mean over the history; its length in frames
+    Vec4* fast = nullptr;  // mean over the last few frames; mean of the squared luminance of `light`
+    Vec4* air = nullptr;   // mean; mean luminance of `light`, as the moments count it
+    Vec4* color = nullptr; // antialiased picture; distance in blocks
+};
+
+struct FilmPlanes {
+    u32 width = 0, height = 0;
+    u32 stride = 0; // of framed planes
+    u32 tiles_wide = 0, tiles_high = 0;
+
+    // At rest (level): sums over all samples.
+    Vec4* sum = nullptr;        // radiance; sound samples
+    Vec4* sum_rest = nullptr;   // what rounding took from `sum`; samples that met a surface
+    Vec4* sum_albedo = nullptr; // albedo; distance
+    Vec4* sum_normal = nullptr; // normal; samples with sound guides
+
+    // This frame, as traced.
+    Vec4* base = nullptr;   // level: base; roughness
+    Vec4* albedo = nullptr; // level: albedo; distance, 0 sky
+    Framed3 light, air;     // light over albedo; light.r = kMissing: no sample here
+
+    FilmGuides now, before;
+    Framed3 slope; // r: inverse depth per pixel to the right, g: per pixel down, b: what a spike gives each neighbor
+    FilmHistory past, next;
+    Vec4* tiles = nullptr;   // of kTile^2 pixels: sum of fast - slow, of its variance, of slow; pixels
+    float* change = nullptr; // of a tile: 0 nothing changed .. 1 light is another than before
+    Framed4 even, odd;       // light between filter levels, in turns
+    Framed3 air_even, air_odd;
+    Vec4* color = nullptr;  // level, the picture: linear radiance; distance
+    Vec4* merged = nullptr; // level, before antialiasing: radiance; inverse depth
+};
+
+// What is the same for all pixels of a frame.
+struct FilmFrame {
+    Camera now, before; // `now.jitter` is where this frame's rays went through their pixels
+    Vec3 shift;         // now.eye seen from before.eye, blocks
+    bool denoise = true;
+    bool history = false;       // `past` and `before` hold something
+    bool rest = false;          // nothing moved since the frame before
+    bool sum = false;           // samples are added to the sums,
+    bool sum_first = false;     // which start with this frame
+    bool half = false;          // a quarter of the pixels has light,
+    u32 half_x = 0, half_y = 0; // those with x % 2, y % 2 so
+    u32 rested = 0;             // frames since something moved
+    float longest = 32;         // history, frames
+    float to_mean = 0;          // share of the plain mean in the picture
+    float spike = 0;            // luminance over that of the neighborhood's that is spread; 0: none
+};
+
+VX_HD i32 framed_at(const FilmPlanes& p, i32 x, i32 y) {
+    return y * i32(p.stride) + x;
+}
+VX_HD u32 level_at(const FilmPlanes& p, i32 x, i32 y) {
+    return u32(y) * p.width + u32(x);
+}
+VX_HD float luminance(float r, float g, float b) { // of linear sRGB (Rec. 709)
+    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
+}
+VX_HD float luminance(Vec3 c) {
+    return luminance(c.x, c.y, c.z);
+}
+
+} // namespace vitrail::trace
