@@ -36,6 +36,7 @@ Result<> run_play(const PlayOptions& options) {
     game.local.server.seed = options.seed;
     game.local.server.device = options.device;
     game.local.server.day_minutes = options.day_minutes;
+    game.local.server.players_set_time = true; // the world is his
     game.local.replica.name = options.name;
     game.view_distance = options.view_distance;
     game.packs = options.packs;

@@ -76,6 +76,8 @@ const char* message_name(MessageType type) {
         return "hotbar";
     case MessageType::ask_sections:
         return "ask_sections";
+    case MessageType::set_time:
+        return "set_time";
     case MessageType::welcome:
         return "welcome";
     case MessageType::registry_data:

@@ -38,6 +38,7 @@ enum class MessageType : u8 {
     say = 7,
     hotbar = 8,
     ask_sections = 9,
+    set_time = 10,
     // server to client
     welcome = 64,
     registry_data = 65,
@@ -133,8 +134,8 @@ struct WireDimension {
     bool has_sky = true;
     i32 sea_level = 63;
     static constexpr auto fields =
-        std::tuple{field<1>("id", &WireDimension::id), field<2>("name", &WireDimension::name, {.most = 256}),
-                   field<3>("min_y", &WireDimension::min_y), field<4>("max_y", &WireDimension::max_y),
+        std::tuple{field<1>("id", &WireDimension::id),           field<2>("name", &WireDimension::name, {.most = 256}),
+                   field<3>("min_y", &WireDimension::min_y),     field<4>("max_y", &WireDimension::max_y),
                    field<5>("has_sky", &WireDimension::has_sky), field<6>("sea_level", &WireDimension::sea_level)};
     friend bool operator==(const WireDimension&, const WireDimension&) = default;
 };
@@ -230,6 +231,15 @@ struct AskSections {
     std::vector<WireChunkPos> at;
     static constexpr auto fields = std::tuple{field<1>("dimension", &AskSections::dimension),
                                               field<2>("at", &AskSections::at, {.most = kMostSectionsAsked})};
+};
+
+// Time of day, for all players: moved by `step` day ticks (back only to midnight of the first day), and standing still
+// or not. The server answers by time_of_day, or by a notice where players may not do that.
+struct SetTime {
+    static constexpr MessageType kType = MessageType::set_time;
+    i32 step = 0; // -24000..24000; more is held
+    bool paused = false;
+    static constexpr auto fields = std::tuple{field<1>("step", &SetTime::step), field<2>("paused", &SetTime::paused)};
 };
 
 // --- server to client ---
@@ -396,8 +406,8 @@ struct BodyState {
 struct TimeOfDay {
     static constexpr MessageType kType = MessageType::time_of_day;
     u64 tick = 0;
-    u32 time_of_day = 0; // 0..23999
-    u32 day = 0;         // days since the world began
+    u32 time_of_day = 0;                // 0..23999
+    u32 day = 0;                        // days since the world began
     u32 day_minutes = kUsualDayMinutes; // how fast it goes on (world/day_clock.h)
     static constexpr auto fields =
         std::tuple{field<1>("tick", &TimeOfDay::tick),
@@ -422,7 +432,7 @@ struct Goodbye {
 };
 
 using ClientMessage =
-    std::variant<Hello, MoveCommands, EditRequest, SetView, SectionAck, Leave, Say, Hotbar, AskSections>;
+    std::variant<Hello, MoveCommands, EditRequest, SetView, SectionAck, Leave, Say, Hotbar, AskSections, SetTime>;
 using ServerMessage =
     std::variant<Welcome, RegistryData, StateTexts, BiomeTexts, Sections, AirSections, SectionsGone, HeightsOfColumns,
                  BlockChanges, LightChanges, EditResult, BodyState, TimeOfDay, Notice, Goodbye>;

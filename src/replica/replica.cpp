@@ -84,6 +84,10 @@ void Replica::say(const std::string& text) {
     send(net::Channel::control, net::Say{text});
 }
 
+void Replica::set_time(i32 step_ticks, bool paused) {
+    send(net::Channel::control, net::SetTime{step_ticks, paused});
+}
+
 void Replica::set_hotbar(std::vector<std::string> names, u32 selected) {
     hotbar_ = names;
     hotbar_selected_ = selected;

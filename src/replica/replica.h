@@ -105,6 +105,8 @@ public:
     void set_view_distance(u32 chunks);
     u32 view_distance() const { return view_distance_; } // granted
     void say(const std::string& text);
+    // Asks the server to move the time of day and to stop it or let it go on; it may refuse (a notice comes).
+    void set_time(i32 step_ticks, bool paused);
     void set_hotbar(std::vector<std::string> names, u32 selected);
     const std::vector<std::string>& hotbar() const { return hotbar_; }
     u32 hotbar_selected() const { return hotbar_selected_; }

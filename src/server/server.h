@@ -53,6 +53,7 @@ struct ServerOptions {
     // Time that each worker may take for that in a second, microseconds, once somebody has moved; 0: as much as there
     // is. Half a core holds frame and tick on 2 cores and makes land several times faster than anybody flies.
     u32 generation_us_a_second = 500'000;
+    bool players_set_time = false;       // any player may move and stop the time of day
     u32 view_distance_most = 24;         // chunks
     u32 save_group_ms = 100;             // how long a commit waits for company
     u32 bytes_a_tick_most = 512u << 10;  // section bytes sent to one session in one tick

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMessagesATickMost = 512;
 constexpr std::size_t kRequestsATickMost = 64;
-constexpr u32 kAsksATickMost = 8;
+constexpr u32 kAsksATickMost = 8, kTimesATickMost = 8;
 constexpr std::size_t kCommandsWaitingMost = 240;
 constexpr std::size_t kPlayersLeftMost = 1000;
 constexpr u64 kHelloTicksMost = 200; // who does not greet in 10 seconds is dropped
@@ -68,7 +68,7 @@ void hear(ServerWorld& world, Session& session, net::Hello& hello) {
     welcome.tick = world.tick;
     welcome.time_of_day = u32(world.level.time_ticks % kDayTicks);
     welcome.day = u32(world.level.time_ticks / kDayTicks);
-    welcome.day_minutes = world.level.day_minutes;
+    welcome.day_minutes = day_minutes_now(world);
     welcome.content_hash = world.content_hash;
     welcome.view_distance = session.view_distance;
     welcome.hotbar = session.hotbar;
@@ -121,6 +121,18 @@ void hear(ServerWorld&, Session& session, net::Hotbar& hotbar) {
     session.player_dirty = true;
 }
 
+void hear(ServerWorld& world, Session& session, net::SetTime& wanted) {
+    if (++session.times_heard > kTimesATickMost) return;
+    if (!world.options.players_set_time)
+        return send(session, net::Channel::control, net::Notice{"", "this server keeps its own time of day"});
+    const i64 step = std::clamp<i64>(wanted.step, -i64(kDayTicks), i64(kDayTicks));
+    world.level.time_ticks = u64(std::max<i64>(i64(world.level.time_ticks) + step, 0));
+    world.time_paused = wanted.paused;
+    world.level_dirty = true;
+    for (auto& other : world.sessions)
+        if (other->joined) tell_time(world, *other);
+}
+
 void hear(ServerWorld& world, Session& session, net::AskSections& asked) {
     if (++session.asks_heard <= kAsksATickMost) take_asks(world, session, asked);
 }
@@ -135,6 +147,16 @@ void send(Session& session, net::Channel channel, Bytes message) {
     }
 }
 
+u32 day_minutes_now(const ServerWorld& world) {
+    return world.time_paused ? 0 : world.level.day_minutes;
+}
+
+void tell_time(const ServerWorld& world, Session& session) {
+    send(session, net::Channel::control,
+         net::TimeOfDay{world.tick, u32(world.level.time_ticks % kDayTicks), u32(world.level.time_ticks / kDayTicks),
+                        day_minutes_now(world)});
+}
+
 void drop(Session& session, std::string reason) {
     if (session.gone) return;
     session.gone = true;
@@ -145,7 +167,7 @@ void hear_sessions(ServerWorld& world) {
     for (auto& session : world.sessions) {
         if (session->gone) continue;
         const bool open = session->transport->open();
-        session->asks_heard = 0;
+        session->asks_heard = session->times_heard = 0;
         session->transport->poll(
             [&](net::Channel, ByteView bytes) {
                 if (session->gone) return;

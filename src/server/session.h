@@ -65,6 +65,7 @@ struct Session {
     bool asked_changed = false;        // or what is wanted has: to be put in order
     u64 asked_tick = 0;                // of that message; 0: it never asked
     u32 asks_heard = 0;                // in this tick
+    u32 times_heard = 0;               // set_time, in this tick
     ChunkPos walked_from{}, walked_feet{};
     u64 walked_opened = ~u64(0);
     u64 walked_tick = 0;
@@ -83,6 +84,9 @@ void send(Session& session, net::Channel channel, const M& message) {
 // Hears what every session sent since the last tick: greetings, commands, requests. A message that does not parse, or
 // is not allowed yet, ends its session with a reason; the server goes on.
 void hear_sessions(ServerWorld& world);
+// Minutes that a day takes at the moment: 0 while a player has stopped time.
+u32 day_minutes_now(const ServerWorld& world);
+void tell_time(const ServerWorld& world, Session& session);
 
 // Marks a session to be dropped with this reason.
 void drop(Session& session, std::string reason);

@@ -25,7 +25,7 @@ void tell_results(ServerWorld& world) {
 }
 
 void advance_time(ServerWorld& world) {
-    world.level.time_ticks += world.day_runner.step(world.level.day_minutes);
+    world.level.time_ticks += world.day_runner.step(day_minutes_now(world));
     if (world.tick % kPlayerSaveTicks == 0) {
         world.level_dirty = !world.sessions.empty();
         for (auto& session : world.sessions)
@@ -33,10 +33,7 @@ void advance_time(ServerWorld& world) {
     }
     if (world.tick % kTimeTicks != 0) return;
     for (auto& session : world.sessions)
-        if (session->joined)
-            send(*session, net::Channel::control,
-                 net::TimeOfDay{world.tick, u32(world.level.time_ticks % kDayTicks),
-                                u32(world.level.time_ticks / kDayTicks), world.level.day_minutes});
+        if (session->joined) tell_time(world, *session);
 }
 
 } // namespace

@@ -53,6 +53,7 @@ struct ServerWorld {
 
     LevelRecord level;
     DayRunner day_runner;
+    bool time_paused = false; // by a player; not kept
     bool level_dirty = false;
     std::unique_ptr<WorldRecords> records;
     // The writer thread posts here; it must outlive that.

@@ -98,6 +98,7 @@ std::vector<ClientMessage> client_messages(Rng& rng) {
     for (u32 i = rng.below(9); i > 0; --i)
         asked.at.push_back({i32(rng.next()), i32(rng.next()), i32(rng.next())});
     all.emplace_back(std::move(asked));
+    all.emplace_back(SetTime{i32(rng.next()), rng.below(2) == 1});
     return all;
 }
 

@@ -271,6 +271,38 @@ TEST(Session, ClientsSeeTheSunWhereTheServerHasIt) {
     EXPECT_GE(client.day_ticks(), 5 * 24000 + 11090);
 }
 
+// Where players may, they move and stop the time of day, for all of them.
+TEST(Session, PlayersMoveAndStopTimeWhereTheyMay) {
+    Play play;
+    auto &alice = play.join("alice"), &bob = play.join("bob");
+    play.world().level.time_ticks = 5000;
+    alice.set_time(500, true);
+    play.tick(3);
+    EXPECT_LT(play.world().level.time_ticks, 5010u) << "refused";
+    EXPECT_FALSE(play.world().time_paused);
+    EXPECT_FALSE(alice.take_notices().empty());
+
+    play.world().options.players_set_time = true;
+    play.world().level.time_ticks = 5000;
+    alice.set_time(500, true);
+    play.tick(40);
+    EXPECT_LE(play.world().level.time_ticks, 5502u);
+    EXPECT_GE(play.world().level.time_ticks, 5500u);
+    const u64 stopped = play.world().level.time_ticks;
+    EXPECT_EQ(bob.day_ticks(), double(stopped)) << "all see it";
+    bob.set_time(-20000, true); // not before the beginning
+    play.tick(5);
+    EXPECT_EQ(play.world().level.time_ticks, 0u);
+    EXPECT_EQ(play.world().level.day_minutes, kUsualDayMinutes) << "stopping is not kept";
+    bob.set_time(0, false);
+    play.tick(40);
+    EXPECT_GE(play.world().level.time_ticks, 35u);
+    for (int i = 0; i < 100; ++i) // a flood counts a few times a tick
+        alice.set_time(24000, false);
+    play.tick(2);
+    EXPECT_LE(play.world().level.time_ticks, 24000u * 20);
+}
+
 // Of a world whose generator is gone nothing may be made anew, nor may it be lost.
 TEST(Session, AWorldOfAnUnknownGeneratorIsRefusedAndLeftAsItIs) {
     const std::filesystem::path folder =
