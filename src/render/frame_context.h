@@ -63,9 +63,10 @@ struct FrameContext {
     SectionStore* sections = nullptr;
     const TextureSet* textures = nullptr;
     gfx::UploadRing* ring = nullptr;
-    TerrainInputs terrain;      // what all draws of terrain share; list and view are missing
-    u32 plain_array = 0;        // vertex array without attributes, for screen passes
-    u32 target_framebuffer = 0; // "screen"
+    TerrainInputs terrain;                        // what all draws of terrain share; list and view are missing
+    u32 plain_array = 0;                          // vertex array without attributes, for screen passes
+    u32 target_framebuffer = 0;                   // "screen"
+    const gfx::Texture* target_texture = nullptr; // what it draws into, where that is known: threads may write it
     FrameStats* stats = nullptr;
 };
 

@@ -130,6 +130,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     frame.ring = &impl.ring;
     frame.plain_array = impl.plain_array.name();
     frame.target_framebuffer = framebuffer == kOwnPicture ? impl.own_framebuffer(view.width, view.height) : framebuffer;
+    frame.target_texture = framebuffer == kOwnPicture ? &impl.picture : nullptr;
     frame.stats = &stats;
     for (RenderPass* pass : impl.active())
         pass->begin(frame);

@@ -2,8 +2,10 @@
 
 #include "render/passes/film/film_pass.h"
 #include "render/passes/icon/icon_pass.h"
+#include "render/passes/terrain/shown.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <epoxy/gl.h>
 
 namespace vitrail::render {
@@ -58,6 +60,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     glVertexArrayAttribIFormat(array, 0, 4, GL_INT, 0);
     glVertexArrayAttribBinding(array, 0, 0);
     glVertexArrayBindingDivisor(array, 0, 1);
+    glVertexArrayAttribIFormat(array, 1, 1, GL_UNSIGNED_INT, offsetof(ShownSection, base)); // where bind_terrain enables it
+    glVertexArrayAttribBinding(array, 1, 1);
+    glVertexArrayBindingDivisor(array, 1, 1);
     impl.reserve_models(1024);
     std::vector<u32> white(256, 0xffffffffu);
     impl.fixed_tints = gfx::make_buffer(white.size() * 4, GL_DYNAMIC_STORAGE_BIT, white.data());

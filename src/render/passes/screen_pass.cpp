@@ -73,31 +73,48 @@ Result<ScreenProgram> ScreenProgram::build(const BuildContext& context, ScreenSh
     return made;
 }
 
-void ScreenProgram::run(const gfx::PassContext& pass, u32 vertex_array, std::initializer_list<std::string> writes,
-                        std::initializer_list<std::string> reads, float share) const {
+void ScreenProgram::bind(const gfx::PassContext& pass, std::initializer_list<std::string> reads) const {
     std::array<u32, 8> textures{};
-    VX_ASSERT(reads.size() <= textures.size() && writes.size() <= 2);
+    VX_ASSERT(reads.size() <= textures.size());
     u32 count = 0;
     for (const std::string& name : reads)
         textures[count++] = name.empty() ? 0 : pass.graph.target(name).name();
     glBindTextures(0, GLsizei(count), textures.data());
+}
+
+void ScreenProgram::dispatch(const gfx::PassContext& pass, float share) const {
+    if (area_ != ScreenArea::all) glBindTextureUnit(u32(Unit::depth), pass.graph.target("depth").name());
+    if (blend_ == ScreenBlend::add) glProgramUniform2f(name(), 31, 1, 1);
+    if (blend_ == ScreenBlend::by_share) glProgramUniform2f(name(), 31, 1 - share, share);
+    glUseProgram(name());
+    glDispatchCompute((pass.width + 7) / 8, (pass.height + 7) / 8, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT);
+}
+
+void ScreenProgram::run(const gfx::PassContext& pass, u32 vertex_array, std::initializer_list<std::string> writes,
+                        std::initializer_list<std::string> reads, float share) const {
+    VX_ASSERT(writes.size() <= 2);
+    bind(pass, reads);
     if (!compute_) {
         draw_screen(*program_, vertex_array, area_, {}, blend_, share);
         return;
     }
-    if (area_ != ScreenArea::all) glBindTextureUnit(u32(Unit::depth), pass.graph.target("depth").name());
-    if (blend_ == ScreenBlend::add) glProgramUniform2f(name(), 31, 1, 1);
-    if (blend_ == ScreenBlend::by_share) glProgramUniform2f(name(), 31, 1 - share, share);
     u32 unit = 0;
     for (const std::string& target : writes) {
         const gfx::Texture& texture = pass.graph.target(target);
         glBindImageTexture(unit++, texture.name(), 0, GL_FALSE, 0,
                            blend_ == ScreenBlend::none ? GL_WRITE_ONLY : GL_READ_WRITE, texture.format);
     }
-    glUseProgram(name());
-    glDispatchCompute((pass.width + 7) / 8, (pass.height + 7) / 8, 1);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
-                    GL_TEXTURE_UPDATE_BARRIER_BIT);
+    dispatch(pass, share);
+}
+
+void ScreenProgram::run_into(const gfx::PassContext& pass, const gfx::Texture& texture,
+                             std::initializer_list<std::string> reads) const {
+    VX_ASSERT(compute_ && blend_ == ScreenBlend::none && texture.width == pass.width && texture.height == pass.height);
+    bind(pass, reads);
+    glBindImageTexture(0, texture.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, texture.format);
+    dispatch(pass, 1);
 }
 
 } // namespace vitrail::render

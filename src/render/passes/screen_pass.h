@@ -45,9 +45,14 @@ public:
     // a unit empty. share: for by_share.
     void run(const gfx::PassContext& pass, u32 vertex_array, std::initializer_list<std::string> writes,
              std::initializer_list<std::string> reads, float share = 1) const;
+    // The same into a texture of the pass's size that is no target of the graph. Only where passes run as compute.
+    void run_into(const gfx::PassContext& pass, const gfx::Texture& texture,
+                  std::initializer_list<std::string> reads) const;
     u32 name() const { return program_->name(); } // for uniforms
 
 private:
+    void bind(const gfx::PassContext& pass, std::initializer_list<std::string> reads) const;
+    void dispatch(const gfx::PassContext& pass, float share) const;
     ProgramRef program_;
     bool compute_ = false;
     ScreenArea area_ = ScreenArea::all;

@@ -16,7 +16,9 @@ public:
     static bool wanted(const Effects& effects) { return effects.reflections.on || effects.water.refraction; }
 
 private:
+    void make_levels(const gfx::Texture& picture) const;
     ScreenProgram program_;
+    ProgramRef mips_; // where passes over the screen run as compute
 };
 
 } // namespace vitrail::render

@@ -1,5 +1,7 @@
 #include "render/passes/terrain/terrain_draw.h"
 
+#include "render/passes/terrain/shown.h"
+
 #include <epoxy/gl.h>
 
 namespace vitrail::render {
@@ -7,6 +9,12 @@ namespace vitrail::render {
 void bind_terrain(const TerrainInputs& in) {
     glBindVertexArray(in.vertex_array);
     glVertexArrayVertexBuffer(in.vertex_array, 0, in.records, GLintptr(in.records_offset), sizeof(SectionRecord));
+    if (in.shown) {
+        glEnableVertexArrayAttrib(in.vertex_array, 1);
+        glVertexArrayVertexBuffer(in.vertex_array, 1, in.shown, GLintptr(in.shown_offset), sizeof(ShownSection));
+    } else {
+        glDisableVertexArrayAttrib(in.vertex_array, 1);
+    }
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, in.commands);
     const u32 storage[4] = {in.quads, in.tints, in.fixed_tints, in.models};
     for (u32 i = 0; i < 4; ++i)

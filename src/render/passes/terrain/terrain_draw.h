@@ -14,6 +14,8 @@ struct TerrainInputs {
     u32 records = 0;                                       // vertex buffer of SectionRecord
     u64 records_offset = 0;
     u32 commands = 0; // indirect buffer
+    u32 shown = 0; // vertex buffer of ShownSection (terrain_pass.h), beside the records; 0: none
+    u64 shown_offset = 0;
     struct Range {
         u64 offset = 0;
         u32 count = 0;

@@ -26,8 +26,16 @@ Result<> TerrainPass::build(const BuildContext& context) {
     for (const Kind& kind : kinds) {
         std::vector<std::string> defines = terrain_defines(context.effects);
         defines.insert(defines.end(), kind.defines.begin(), kind.defines.end());
+        const char* fragment = "terrain/terrain.frag.glsl";
+        if (context.compute) defines.push_back("SHOWN"), fragment = "terrain/shown.frag.glsl";
         VX_TRY_ASSIGN(programs_[u32(kind.kind)],
-                      context.shaders.program("terrain/terrain.vert.glsl", "terrain/terrain.frag.glsl", defines));
+                      context.shaders.program("terrain/terrain.vert.glsl", fragment, defines));
+    }
+    compute_ = context.compute;
+    if (compute_) {
+        std::vector<std::string> defines = terrain_defines(context.effects);
+        defines.push_back("MODEL 2");
+        VX_TRY_ASSIGN(surfaces_, context.shaders.compute_program("terrain/surfaces.comp.glsl", std::move(defines)));
     }
     return occlusion_.build(context);
 }
@@ -38,29 +46,40 @@ void TerrainPass::declare(DeclareContext& c) {
     c.graph.add_target({.name = "albedo", .format = GL_RGBA8});
     c.graph.add_target({.name = "light", .format = GL_RGBA8});
     c.graph.add_target({.name = "surface", .format = GL_RGBA8UI});
-    const std::vector<std::string> writes{"albedo", "light", "surface", "depth"};
+    const std::vector<std::string> looks{"albedo", "light", "surface"};
+    std::vector<std::string> writes = looks;
+    if (compute_) {
+        c.graph.add_target({.name = "shown", .format = GL_R32UI});
+        writes = {"shown"};
+    }
+    writes.push_back("depth");
     c.graph.add_pass({"terrain", {}, writes, [this](const gfx::PassContext& p) { draw(p.graph); }, ""});
-    if (!c.effects.culling.occlusion) return;
-    const auto if_split = [this](auto body) {
-        return [this, body](const gfx::PassContext&) {
-            if (!frame_->views.empty() && frame_->views[0].occlusion) body();
+    if (c.effects.culling.occlusion) {
+        const auto if_split = [this](auto body) {
+            return [this, body](const gfx::PassContext&) {
+                if (!frame_->views.empty() && frame_->views[0].occlusion) body();
+            };
         };
-    };
-    c.graph.add_pass({"occlusion", {}, writes, if_split([this] { occlusion_.test(*frame_, frame_->views[0]); }), ""});
-    c.graph.add_pass({"terrain late",
-                      {},
-                      writes,
-                      if_split([this] {
-                          for_each_view(*frame_, [&](u32 view, const ViewDraws& draws) {
-                              if (view == 0) draw_solids(draws.late);
-                          });
-                      }),
-                      ""});
+        c.graph.add_pass(
+            {"occlusion", {}, writes, if_split([this] { occlusion_.test(*frame_, frame_->views[0]); }), ""});
+        c.graph.add_pass({"terrain late",
+                          {},
+                          writes,
+                          if_split([this] {
+                              for_each_view(*frame_, [&](u32 view, const ViewDraws& draws) {
+                                  if (view == 0) draw_solids(draws.late);
+                              });
+                          }),
+                          ""});
+    }
+    if (!compute_) return;
+    c.graph.add_pass({"surfaces", {"shown", "depth"}, looks, [this](const gfx::PassContext& p) { look_up(p); }, ""});
 }
 
 void TerrainPass::prepare(FrameContext& frame) {
     for (ViewDraws& view : frame.views)
         view.occlusion = false;
+    if (compute_) shown_ = number_shown(frame);
     if (frame.effects->culling.occlusion && !frame.views.empty()) occlusion_.prepare(frame, frame.views[0]);
 }
 
@@ -103,6 +122,29 @@ void TerrainPass::draw(const gfx::FrameGraph& graph) {
     // Colors need no clearing: only pixels with a depth are ever read.
     for_each_view(*frame_,
                   [&](u32, const ViewDraws& draws) { draw_solids(draws.occlusion ? draws.first : draws.inputs); });
+}
+
+void TerrainPass::look_up(const gfx::PassContext& p) const {
+    if (shown_.buffer == 0) return;
+    const TerrainInputs& in = frame_->terrain;
+    const u32 storage[4] = {in.quads, in.tints, in.fixed_tints, in.models};
+    for (u32 i = 0; i < 4; ++i)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, storage[i]);
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 4, shown_.buffer, GLintptr(shown_.offset), GLsizeiptr(shown_.bytes));
+    const u32 textures[5] = {in.albedo, in.light, in.material, p.graph.target("depth").name(),
+                             p.graph.target("shown").name()};
+    glBindTextures(0, 5, textures);
+    u32 unit = 0;
+    for (const char* name : {"albedo", "light", "surface"}) {
+        const gfx::Texture& into = p.graph.target(name);
+        glBindImageTexture(unit++, into.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, into.format);
+    }
+    glProgramUniform1ui(surfaces_->name(), 0, shown_.shift);
+    glProgramUniform4f(surfaces_->name(), 1, in.light_atlas.x, in.light_atlas.y, in.light_atlas.z, in.light_atlas.w);
+    glUseProgram(surfaces_->name());
+    glDispatchCompute((p.width + 7) / 8, (p.height + 7) / 8, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 } // namespace vitrail::render

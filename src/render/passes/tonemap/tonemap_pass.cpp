@@ -22,7 +22,7 @@ void TonemapPass::declare(DeclareContext& c) {
         c.graph.add_target({.name = "display", .format = GL_RGBA8, .linear = true});
         c.display = "display"; // fxaa brings it to the screen
     }
-    // Threads cannot write into a window.
+    // Threads cannot write into a window: there the picture is carried over. Into a texture they write themselves.
     const bool carried = compute_ && c.display == "screen";
     const std::string into = carried ? "toned" : c.display;
     if (carried) c.graph.add_target({.name = "toned", .format = GL_RGBA8});
@@ -40,8 +40,9 @@ void TonemapPass::declare(DeclareContext& c) {
                       {"screen"},
                       [this](const gfx::PassContext& p) {
                           const GLint w = GLint(p.width), h = GLint(p.height);
-                          glBlitNamedFramebuffer(p.graph.framebuffer("tonemap"), frame_->target_framebuffer, 0, 0, w, h,
-                                                 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+                          if (!frame_->target_texture)
+                              glBlitNamedFramebuffer(p.graph.framebuffer("tonemap"), frame_->target_framebuffer, 0, 0,
+                                                     w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
                           glBindFramebuffer(GL_FRAMEBUFFER, frame_->target_framebuffer);
                       },
                       ""});
@@ -53,7 +54,11 @@ void TonemapPass::draw(const gfx::PassContext& p, const std::string& color, cons
     const float exposure = frame_->frame->gamma_exposure * std::exp2(effects.exposure.bias);
     glProgramUniform2f(program_.name(), 0, exposure, effects.bloom.strength);
     if (effects.exposure.automatic) glBindTextureUnit(u32(Unit::exposure), p.graph.target("exposure").name());
-    program_.run(p, frame_->plain_array, {into}, {color, effects.bloom.on ? "bloom1" : ""});
+    const std::string bloom = effects.bloom.on ? "bloom1" : "";
+    if (compute_ && into == "toned" && frame_->target_texture)
+        program_.run_into(p, *frame_->target_texture, {color, bloom});
+    else
+        program_.run(p, frame_->plain_array, {into}, {color, bloom});
 }
 
 } // namespace vitrail::render
