@@ -30,7 +30,8 @@ void draw_kind(const gfx::Program& program, const TerrainInputs& in, DrawKind ki
     if (range.count == 0) return;
     glUseProgram(program.name());
     glProgramUniform1ui(program.name(), 0, in.view);
-    glProgramUniform4f(program.name(), 1, in.light_atlas.x, in.light_atlas.y, in.light_atlas.z, in.light_atlas.w);
+    if (in.light_atlas.w > 0)
+        glProgramUniform4f(program.name(), 1, in.light_atlas.x, in.light_atlas.y, in.light_atlas.z, in.light_atlas.w);
     if (cull)
         glEnable(GL_CULL_FACE);
     else

@@ -83,7 +83,8 @@ void TerrainPass::prepare(FrameContext& frame) {
     if (frame.effects->culling.occlusion && !frame.views.empty()) occlusion_.prepare(frame, frame.views[0]);
 }
 
-void TerrainPass::draw_solids(const TerrainInputs& in) const {
+void TerrainPass::draw_solids(TerrainInputs in) const {
+    if (compute_) in.light_atlas = {}; // light is looked up later
     bind_terrain(in);
     draw_kind(*programs_[u32(DrawKind::opaque_cubes)], in, DrawKind::opaque_cubes, true);
     // Models decide by quad which look away (kTwoSided); cutout cubes show their far side through their holes.

@@ -1,5 +1,5 @@
-// Opaque and cutout terrain into the G-buffer: "albedo", "light", "surface", "depth". Where passes over the screen run as
-// compute, what is drawn is "shown", the number of each pixel's quad, and a compute shader makes the rest of it
+// Opaque and cutout terrain into the G-buffer: "albedo", "light", "surface", "depth". Where passes over the screen run
+// as compute, what is drawn is "shown", the number of each pixel's quad, and a compute shader makes the rest of it
 // (surfaces.comp.glsl): fragments are dear there. (Lighting surfaces where they are
 // drawn was slower on software OpenGL too: what is overdrawn was lit in vain.) Cracks at T-junctions: a cube quad grows
 // outwards in its plane by kSeal (terrain.vert.glsl) of a pixel.
@@ -22,7 +22,7 @@ public:
 
 private:
     void draw(const gfx::FrameGraph& graph);
-    void draw_solids(const TerrainInputs& in) const;
+    void draw_solids(TerrainInputs in) const;
     void look_up(const gfx::PassContext& context) const;
     Occlusion occlusion_;
     std::array<ProgramRef, u32(DrawKind::count)> programs_; // translucent: none
