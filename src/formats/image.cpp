@@ -1,6 +1,9 @@
 #include "formats/image.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fmt/format.h>
+#include <fstream>
 #include <memory>
 #include <png.h>
 
@@ -22,6 +25,20 @@ Result<Image> decode_png(ByteView bytes) {
     image.pixels.resize(std::size_t(png.width) * png.height * 4);
     if (!png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr))
         return fail(ErrorCode::damaged, fmt::format("damaged PNG: {}", png.message));
+    return image;
+}
+
+Result<Image> read_png(const std::string& path) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) return fail(ErrorCode::not_found, fmt::format("{}: {}", path, std::strerror(errno)));
+    const std::streamoff size = file.tellg();
+    if (size < 0 || size > (64 << 20)) return fail(ErrorCode::limit, path + ": too large for a picture");
+    Bytes bytes(std::size_t(size), u8(0));
+    file.seekg(0);
+    file.read(reinterpret_cast<char*>(bytes.data()), size);
+    if (!file) return fail(ErrorCode::io, path + ": cannot be read");
+    Result<Image> image = decode_png(bytes);
+    if (!image) return fail(image.error().code, path + ": " + image.error().message);
     return image;
 }
 

@@ -5,6 +5,7 @@
 #include "base/bytes.h"
 #include "base/result.h"
 
+#include <string>
 #include <vector>
 
 namespace vitrail {
@@ -20,5 +21,8 @@ struct Image {
 // Any PNG as RGBA, at most 4096 x 65536 and 2^24 pixels; nothing is allocated before the size is checked. Errors:
 // damaged, limit.
 Result<Image> decode_png(ByteView bytes);
+
+// Errors: not_found, io, damaged, limit; the message names the file.
+Result<Image> read_png(const std::string& path);
 
 } // namespace vitrail

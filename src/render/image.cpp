@@ -4,25 +4,10 @@
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <png.h>
 #include <unistd.h>
 
 namespace vitrail::render {
-
-Result<Image> read_png(const std::string& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) return fail(ErrorCode::not_found, fmt::format("{}: {}", path, std::strerror(errno)));
-    const std::streamoff size = file.tellg();
-    if (size < 0 || size > (64 << 20)) return fail(ErrorCode::limit, path + ": too large for a picture");
-    Bytes bytes(std::size_t(size), u8(0));
-    file.seekg(0);
-    file.read(reinterpret_cast<char*>(bytes.data()), size);
-    if (!file) return fail(ErrorCode::io, path + ": cannot be read");
-    Result<Image> image = decode_png(bytes);
-    if (!image) return fail(image.error().code, path + ": " + image.error().message);
-    return image;
-}
 
 Result<> write_png(const std::string& path, const Image& image) {
     png_image png{};

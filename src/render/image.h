@@ -1,7 +1,6 @@
 // 8-bit images in memory and as PNG files.
 #pragma once
 
-#include "base/bytes.h"
 #include "base/result.h"
 #include "formats/image.h"
 
@@ -11,9 +10,8 @@ namespace vitrail::render {
 
 using vitrail::decode_png;
 using vitrail::Image;
+using vitrail::read_png;
 
-// Errors: not_found, io, damaged, limit; the message names the file.
-Result<Image> read_png(const std::string& path);
 // Written beside and renamed, so that no half-written file is ever seen. Errors: io.
 Result<> write_png(const std::string& path, const Image& image);
 

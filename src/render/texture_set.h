@@ -1,34 +1,23 @@
-// The block textures as two arrays of square layers. Layer = TextureId, so that shaders need no table: content's first,
-// then pictures that only packs have. Albedo is sRGB-encoded RGBA8 (decoded by the lighting pass); material holds the
-// normal map's x and y, roughness and emission, linear. In the opaque pass alpha is the share of its tint that a texel
-// takes.
+// The block pictures of scene/block_pictures.h as two arrays of square layers. Layer = TextureId, so that shaders need
+// no table. Albedo is decoded by the lighting pass.
 //
-// Layers are as large as the largest picture in use. Frames of animations lie in memory and are written into their
-// layer as time passes: a few kilobytes each, and the arrays keep their layers for what stands still.
+// Frames of animations lie in memory and are written into their layer as time passes: a few kilobytes each, and the
+// arrays keep their layers for what stands still.
 #pragma once
 
 #include "base/result.h"
 #include "gfx/handles.h"
-#include "render/texture_mips.h"
-#include "world/block_registry.h"
+#include "scene/block_pictures.h"
 
 #include <string>
 #include <vector>
 
-namespace vitrail::scene {
-class PackLooks;
-}
-
 namespace vitrail::render {
 
-struct TextureLimits {
-    u32 size_most = 512;             // texels of a layer's side
-    u64 bytes_most = u64(768) << 20; // of both arrays on the GPU
-};
+using TextureLimits = scene::PictureLimits;
 
 class TextureSet {
 public:
-    static constexpr u32 kSize = 32, kLevels = 6; // without packs
     // packs: of this registry, or null. Errors: limit.
     Result<> load(const BlockRegistry& registry, const scene::PackLooks* packs, const TextureLimits& limits,
                   bool smooth, float anisotropy);
@@ -42,25 +31,12 @@ public:
     void set_smooth(bool smooth, float anisotropy);
     u64 gpu_bytes() const;
 
-    // The side that layers get, a power of two from kSize.
-    static u32 choose_size(u32 layers, u32 largest, const TextureLimits& limits);
-
 private:
-    struct Animation {
-        struct Step {
-            u32 frame = 0, end = 0; // ticks
-        };
-        u32 layer = 0, ticks = 0;
-        bool interpolate = false;
-        u64 shown = ~u64(0);
-        std::vector<Step> steps;
-        std::vector<MipChain> albedo, material; // material may be empty: it does not change
-    };
     gfx::Texture albedo_, material_;
-    std::vector<Animation> animations_;
-    MipChain mixed_;
-    u32 size_ = kSize;
-    bool break_animations_ = false;
+    std::vector<scene::PictureAnimation> animations_;
+    std::vector<u64> shown_; // of each animation: Moment::key
+    scene::MipChain mixed_;
+    u32 size_ = scene::PictureFormat::kContentSize;
     std::vector<std::string> missing_;
 };
 

@@ -86,8 +86,8 @@ TEST(Textures, MipsKeepTheDensityOfLeaves) {
         leaves.pixels[i * 4 + 3] = hole ? 0 : 255;
         solid += !hole;
     }
-    const MipChain chain = make_albedo_mips(leaves, 0);
-    ASSERT_EQ(chain.levels.size(), TextureSet::kLevels);
+    const scene::MipChain chain = scene::make_albedo_mips(leaves, 0);
+    ASSERT_EQ(chain.levels.size(), scene::PictureFormat{}.levels);
     for (u32 level = 0; level < 4; ++level) {
         const auto& pixels = chain.levels[level];
         u32 passed = 0;
@@ -103,8 +103,8 @@ TEST(Textures, MipsAverageInLinearLight) {
     for (u32 y = 0; y < 32; ++y)
         for (u32 x = 0; x < 32; ++x)
             if ((x + y) % 2) checks.at(x, y)[0] = checks.at(x, y)[1] = checks.at(x, y)[2] = 0;
-    const MipChain chain = make_albedo_mips(checks, 0);
-    for (u32 level = 1; level < TextureSet::kLevels; ++level)
+    const scene::MipChain chain = scene::make_albedo_mips(checks, 0);
+    for (u32 level = 1; level < scene::PictureFormat{}.levels; ++level)
         EXPECT_NEAR(chain.levels[level][0], 188, 1); // not 128
 }
 
@@ -114,7 +114,7 @@ TEST(Textures, AnimationStripsGiveTheirFrames) {
         for (u32 x = 0; x < 16; ++x)
             strip.at(x, y)[0] = u8(10 + y / 16 * 50);
     for (u32 frame = 0; frame < 3; ++frame)
-        EXPECT_EQ(make_albedo_mips(strip, frame).levels[0][4 * 500], 10 + frame * 50);
+        EXPECT_EQ(scene::make_albedo_mips(strip, frame).levels[0][4 * 500], 10 + frame * 50);
 }
 
 class PngFiles : public testing::Test {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "render/meshing/mesher.h"
+#include "scene/tint_grid.h"
 
 #include <array>
 #include <span>
@@ -29,24 +30,12 @@ struct LightBrick {
 // give by the same rule; cells deeper are 0 and never sampled. Neighboring bricks agree in the cells they share.
 void build_light_brick(const MeshInput& input, LightBrick& out);
 
-// Grass, foliage and water colors around a section, for bilinear sampling.
-struct TintGrid {
-    static constexpr i32 kSize = 6; // four cells of 4 blocks and one border cell on each side
-    static constexpr u32 index(i32 cell_x, i32 cell_z) { return u32((cell_x + 1) + kSize * (cell_z + 1)); } // -1..4
-    using Texels = std::array<std::array<u8, 4>, kSize * kSize>; // sRGB and 255
-    Texels grass{}, foliage{}, water{};
-    bool uniform = false; // one color everywhere
-    friend bool operator==(const TintGrid&, const TintGrid&) = default;
-};
-
-// sRGB colors of a biome.
-struct BiomeTint {
-    std::array<u8, 3> grass{127, 178, 89}, foliage{104, 158, 70}, water{63, 118, 228};
-};
-
-// From the section and its 8 neighbors at the same height; colors are blended with a tent over 12 blocks (radius 8),
-// all four layers of biomes together. Ids beyond `tints` and absent chunks take the tints of the nearest known
-// (section: entry 0). A point of the section (blocks, 0..16) is sampled at (p.xz / 4 + 1) / 6.
-TintGrid build_tint_grid(const MeshInput& input, std::span<const BiomeTint> tints);
+using scene::BiomeTint;
+using scene::TintGrid;
+// Of the section's height among the 27 chunks.
+inline TintGrid build_tint_grid(const MeshInput& input, std::span<const BiomeTint> tints) {
+    return scene::build_tint_grid(std::span<const Chunk* const, 9>(&input.chunks[MeshInput::index(-1, 0, -1)], 9),
+                                  tints);
+}
 
 } // namespace vitrail::render

@@ -1,11 +1,11 @@
 // Mip levels of block pictures, on the CPU.
 #pragma once
 
-#include "render/image.h"
+#include "formats/image.h"
 
 #include <vector>
 
-namespace vitrail::render {
+namespace vitrail::scene {
 
 // One layer with its mip levels, largest first: RGBA, size x size down to 1x1.
 struct MipChain {
@@ -24,4 +24,4 @@ MipChain make_albedo_mips(const Image& rgba, u32 frame, u32 size = 32, bool mask
 MipChain make_material_mips(const Image* normal, const Image* roughness, const Image* emission, u32 frame,
                             u32 size = 32);
 
-} // namespace vitrail::render
+} // namespace vitrail::scene

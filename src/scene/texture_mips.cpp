@@ -1,4 +1,4 @@
-#include "render/texture_mips.h"
+#include "scene/texture_mips.h"
 
 #include "base/hash.h"
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace vitrail::render {
+namespace vitrail::scene {
 
 u32 frames_of(const Image& image) {
     return image.height > image.width ? image.height / image.width : 1;
@@ -156,4 +156,4 @@ MipChain make_material_mips(const Image* normal, const Image* roughness, const I
     return chain;
 }
 
-} // namespace vitrail::render
+} // namespace vitrail::scene

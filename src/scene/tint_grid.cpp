@@ -1,8 +1,8 @@
-#include "render/meshing/light_brick.h"
+#include "scene/tint_grid.h"
 
 #include <algorithm>
 
-namespace vitrail::render {
+namespace vitrail::scene {
 
 namespace {
 
@@ -16,7 +16,8 @@ struct Sum {
 
 } // namespace
 
-TintGrid build_tint_grid(const MeshInput& input, std::span<const BiomeTint> tints) {
+TintGrid build_tint_grid(std::span<const Chunk* const, 9> chunks, std::span<const BiomeTint> tints) {
+    const Chunk* const center = chunks[4];
     const BiomeTint plain;
     const auto tint_of = [&](BiomeId id) -> const BiomeTint& {
         if (tints.empty()) return plain;
@@ -24,19 +25,14 @@ TintGrid build_tint_grid(const MeshInput& input, std::span<const BiomeTint> tint
     };
     // An absent column of chunks gives what the nearest cell of the section has.
     const auto chunk_at = [&](i32& cell_x, i32& cell_z) {
-        const Chunk* c = input.chunks[MeshInput::index(cell_x < 0   ? -1
-                                                       : cell_x > 3 ? 1
-                                                                    : 0,
-                                                       0,
-                                                       cell_z < 0   ? -1
-                                                       : cell_z > 3 ? 1
-                                                                    : 0)];
+        const i32 dx = cell_x < 0 ? -1 : cell_x > 3 ? 1 : 0, dz = cell_z < 0 ? -1 : cell_z > 3 ? 1 : 0;
+        const Chunk* c = chunks[std::size_t(dx + 1 + 3 * (dz + 1))];
         if (c) {
             cell_x &= 3, cell_z &= 3;
             return c;
         }
         cell_x = std::clamp(cell_x, 0, 3), cell_z = std::clamp(cell_z, 0, 3);
-        return input.chunks[MeshInput::kCenter];
+        return center;
     };
     const auto blend = [&](std::array<u8, 3> BiomeTint::*kind, TintGrid::Texels& out) {
         Sum cells[kCells][kCells], rows[kCells][TintGrid::kSize];
@@ -76,13 +72,12 @@ TintGrid build_tint_grid(const MeshInput& input, std::span<const BiomeTint> tint
 
     TintGrid out;
     // One biome everywhere is the rule.
-    const BiomeId first = input.chunks[MeshInput::kCenter]->biomes.cells[0];
+    const BiomeId first = center->biomes.cells[0];
     bool one = true;
-    for (i32 dz = -1; dz <= 1; ++dz)
-        for (i32 dx = -1; dx <= 1; ++dx)
-            if (const Chunk* c = input.chunks[MeshInput::index(dx, 0, dz)])
-                for (const BiomeId id : c->biomes.cells)
-                    one &= id == first;
+    for (const Chunk* c : chunks)
+        if (c)
+            for (const BiomeId id : c->biomes.cells)
+                one &= id == first;
     if (one) {
         const BiomeTint& t = tint_of(first);
         fill(t.grass, out.grass);
@@ -97,4 +92,4 @@ TintGrid build_tint_grid(const MeshInput& input, std::span<const BiomeTint> tint
     return out;
 }
 
-} // namespace vitrail::render
+} // namespace vitrail::scene
