@@ -53,7 +53,9 @@ u64 carve(FilmPlanes& p, u32 width, u32 height, float* memory) {
         g->inverse_depth = framed();
         g->normal = framed3();
     }
-    p.light = framed3(), p.air = framed3(), p.slope = framed3();
+    p.light = framed3(), p.air = framed3(), p.fresh = framed3();
+    for (float** plane : {&p.slope_x, &p.slope_y, &p.keep, &p.give})
+        *plane = framed();
     p.even = framed4(), p.odd = framed4();
     p.air_even = framed3(), p.air_odd = framed3();
     for (Vec4** plane : {&p.sum, &p.sum_rest, &p.sum_albedo, &p.sum_normal, &p.base, &p.albedo, &p.color, &p.merged})

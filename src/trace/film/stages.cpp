@@ -35,7 +35,18 @@ const FilmStages& film_stages(FilmVectors v) {
 
 std::vector<FilmPass> film_order(const FilmFrame& f) {
     if (!f.denoise) return {{FilmStep::mean}};
-    return {{FilmStep::mean}};
+    std::vector<FilmPass> order{{FilmStep::slope}};
+    if (f.spike > 0) order.insert(order.end(), {{FilmStep::spikes}, {FilmStep::spread}});
+    if (f.half) order.push_back({FilmStep::fill});
+    order.push_back({FilmStep::reproject});
+    if (f.history) order.insert(order.end(), {{FilmStep::watch}, {FilmStep::test}});
+    order.push_back({FilmStep::respond});
+    for (u32 level = 0; level < kFilterLevels; ++level)
+        order.push_back({FilmStep::filter, level});
+    for (u32 level = 0; level < kAirLevels; ++level)
+        order.push_back({FilmStep::air, level});
+    order.insert(order.end(), {{FilmStep::merge}, {FilmStep::resolve}});
+    return order;
 }
 
 } // namespace vitrail::trace

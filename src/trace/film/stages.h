@@ -9,11 +9,13 @@ namespace vitrail::trace {
 
 enum class FilmStep : u8 {
     mean,
+    slope,
     spikes,
-    gather,
+    spread,
+    fill,
     reproject,
-    tiles,
-    change,
+    watch, // tiles
+    test,  // tiles
     respond,
     filter,
     air,
@@ -22,7 +24,7 @@ enum class FilmStep : u8 {
     count
 };
 
-// One launch: a stage over all pixels (tiles, change: over all tiles), after the one before is done everywhere.
+// One launch: a stage over all pixels (watch, test: over all tiles), after the one before is done everywhere.
 struct FilmPass {
     FilmStep stage;
     u32 level = 0; // filter, air: 0.. widening

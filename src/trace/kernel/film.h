@@ -103,7 +103,7 @@ VX_HD u32 put_samples(const FilmPlanes& p, const FilmFrame& f, u32 x, u32 y, con
     }
     const float n = m.samples > 0 ? 1.0f / float(m.samples) : 0;
     const bool hit = m.first_distance > 0;
-    p.base[i] = {m.base.x * n, m.base.y * n, m.base.z * n, m.first_roughness};
+    p.base[i] = {m.samples > 0 ? m.base.x * n : kMissing, m.base.y * n, m.base.z * n, m.first_roughness};
     p.albedo[i] = {m.first_albedo.x, m.first_albedo.y, m.first_albedo.z, m.first_distance};
     const i32 j = framed_at(p, i32(x), i32(y));
     p.light.r[j] = lit ? ratio_or(m.lit.x, m.lit_albedo.x, 0) : kMissing;

@@ -13,11 +13,18 @@ namespace vitrail::trace {
 
 inline constexpr i32 kFrame = 48;          // pixels on each side; the widest filter reaches 32, vectors run 15 over
 inline constexpr float kNothing = -1e3f;   // inverse depth of the margin
-inline constexpr float kMissing = -1;      // red of light where this frame has no sample
+inline constexpr float kMissing = -1;      // red of light and base where this frame has no sample
 inline constexpr u32 kTile = 4;            // side of the tiles that watch for changes, pixels
 inline constexpr float kLongest = 4096;    // of a history, frames (at rest; in motion FilmFrame::longest)
 inline constexpr float kFastLength = 5;    // frames of the short history
 inline constexpr float kMostLight = 1e12f; // radiance beyond is no light but a fault
+
+// Loops over a filter's taps: unrolled, so that compilers see one straight body to run on vectors.
+#if defined(__CUDACC__) || defined(__clang__)
+#define VX_UNROLL _Pragma("unroll")
+#else
+#define VX_UNROLL _Pragma("GCC unroll 32")
+#endif
 
 // Framed planes: three or four floats a pixel.
 struct Framed3 {
@@ -55,19 +62,21 @@ struct FilmPlanes {
     Vec4* sum_normal = nullptr; // normal; samples with sound guides
 
     // This frame, as traced.
-    Vec4* base = nullptr;   // level: base; roughness
+    Vec4* base = nullptr;   // level: base (x = kMissing: no sound sample); roughness
     Vec4* albedo = nullptr; // level: albedo; distance, 0 sky
     Framed3 light, air;     // light over albedo; light.r = kMissing: no sample here
 
+    Framed3 fresh; // light with spikes spread
     FilmGuides now, before;
-    Framed3 slope; // r: inverse depth per pixel to the right, g: per pixel down, b: what a spike gives each neighbor
+    float *slope_x = nullptr, *slope_y = nullptr; // framed: of the inverse depth, per pixel to the right and down
+    float *keep = nullptr, *give = nullptr;       // framed: share of a sample that stays; what of it each neighbor gets
     FilmHistory past, next;
-    Vec4* tiles = nullptr;   // of kTile^2 pixels: sum of fast - slow, of its variance, of slow; pixels
+    Vec4* tiles = nullptr;   // of kTile^2 pixels: sum of fast - slow, of its variance, of the brighter one; pixels
     float* change = nullptr; // of a tile: 0 nothing changed .. 1 light is another than before
-    Framed4 even, odd;       // light between filter levels, in turns
+    Framed4 even, odd;       // light between filter levels, in turns; `even` before them: samples filled in (half)
     Framed3 air_even, air_odd;
-    Vec4* color = nullptr;  // level, the picture: linear radiance; distance
     Vec4* merged = nullptr; // level, before antialiasing: radiance; inverse depth
+    Vec4* color = nullptr;  // level, the picture: linear radiance; distance
 };
 
 // What is the same for all pixels of a frame.
