@@ -69,18 +69,18 @@ inline float unit(u64 i) {
     return float(mix64(i) >> 40) * 0x1p-24f;
 }
 
-// The light that arrives, over pi.
-inline Vec3 light_at(const Scene& s, const std::vector<Solid>& all, Vec3 at, Vec3 normal) {
+// The light that arrives, over pi. sure: the sun's share, which is sampled directly; luck: of all else.
+inline Vec3 light_at(const Scene& s, const std::vector<Solid>& all, Vec3 at, Vec3 normal, float sure, float luck) {
     const Vec3 sun = normalized(s.sun), from = at + normal * 1e-3f;
     const float open = 0.5f + 0.5f * normal.y, corner = 1 - 0.5f * std::exp(-2 * std::max(0.0f, at.y));
-    Vec3 light = Vec3{0.7f, 0.85f, 1.1f} * (s.sky * open * (normal.y > 0.5f ? 1 : corner));
+    Vec3 light = Vec3{0.7f, 0.85f, 1.1f} * (luck * s.sky * open * (normal.y > 0.5f ? 1 : corner));
     const float cosine = dot(normal, sun);
-    if (cosine > 0 && meet(all, from, sun).t >= kFar) light += Vec3{1, 0.93f, 0.8f} * (s.sun_strength * cosine);
+    if (cosine > 0 && meet(all, from, sun).t >= kFar) light += Vec3{1, 0.93f, 0.8f} * (sure * s.sun_strength * cosine);
     if (s.lamp) {
         const Vec3 to = Vec3{-0.5f, 2.5f, -4} - at;
         const float d = length(to), facing = dot(normal, to) / d;
         if (facing > 0 && meet(all, from, to * (1 / d)).t > d)
-            light += Vec3{1, 0.6f, 0.25f} * (12 * facing / (d * d + 0.5f));
+            light += Vec3{1, 0.6f, 0.25f} * (luck * 12 * facing / (d * d + 0.5f));
     }
     return light;
 }
@@ -93,6 +93,7 @@ inline PixelSample look(const Scene& s, const std::vector<Solid>& all, Vec3 eye,
     const float u = unit(seed), u2 = unit(seed ^ 0xABCDEF);
     const float rest = (1 - s.rare * s.spike) / 0.5f;
     const float luck = seed == 0 || !s.noise ? 1 : (u < s.rare ? s.spike : 0) + (u2 < 0.5f ? rest : 0);
+    const float sure = seed == 0 || !s.noise ? 1 : 0.85f + 0.3f * unit(seed ^ 0x55);
     const float fog_luck = seed == 0 || !s.noise ? 1 : 2 * unit(seed ^ 0x77777);
     if (m.t >= 200) {
         const float h = std::max(0.0f, dir.y);
@@ -113,7 +114,7 @@ inline PixelSample look(const Scene& s, const std::vector<Solid>& all, Vec3 eye,
     p.albedo = m.state == 1 ? Vec3{0.5f, 0.8f, 0.35f} * shade : Vec3{0.8f, 0.7f, 0.6f} * shade;
     p.normal = m.normal;
     p.distance = m.t;
-    p.light = light_at(s, all, at, m.normal) * luck;
+    p.light = light_at(s, all, at, m.normal, sure, luck);
     p.surface = m.state * 64 + u32(i32(m.normal.x) + 1 + (i32(m.normal.y) + 1) * 4 + (i32(m.normal.z) + 1) * 16);
     if (s.mist > 0) {
         const float left = std::exp(-s.mist * m.t);

@@ -7,6 +7,10 @@
 
 namespace vitrail::trace {
 
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wpass-failed" // sanitizers keep loops as they are
+#endif
+
 // Pixels of a row do not read what others of the stage write.
 #ifdef __clang__
 #define VX_ROW _Pragma("clang loop vectorize(assume_safety)")

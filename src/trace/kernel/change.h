@@ -116,7 +116,10 @@ VX_HD void respond_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
     p.odd.r[j] = light.x;
     p.odd.g[j] = light.y;
     p.odd.b[j] = light.z;
-    p.odd.v[j] = soft * one / larger(1, light.w);
+    // Noise of neighbors that share spikes is not independent, so the filter's levels lower it less than they think;
+    // and of short histories the variance is little known.
+    const float unsure = (f.spike > 0 ? 2.0f : 1.0f) + 8 / (larger(1, light.w) * larger(1, light.w));
+    p.odd.v[j] = soft * unsure * one / larger(1, light.w);
     p.air_odd.r[j] = air.x;
     p.air_odd.g[j] = air.y;
     p.air_odd.b[j] = air.z;

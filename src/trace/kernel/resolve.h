@@ -95,29 +95,31 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
         count += 1;
         if (q.w > nearest * 1.02f) nearest = q.w, nx = qx, ny = qy; // silhouettes move with what is in front
     }
-    Vec3 out = own;
+    Vec4 out = now;
     const Earlier e = f.history ? earlier_place(f, float(nx), float(ny), nearest) : Earlier{};
     const float ex = e.x + float(x - nx), ey = e.y + float(y - ny);
     if (e.depth >= 0 && ex >= 0 && ey >= 0 && ex <= float(p.width - 1) && ey <= float(p.height - 1)) {
         const bool whole = ex == std::floor(ex) && ey == std::floor(ey);
-        Vec3 past = squeezed(whole ? p.past.color[level_at(p, i32(ex), i32(ey))]
-                                   : sharp_lookup(p.past.color, p.width, p.height, ex, ey));
-        // Held to what the neighborhood's colors allow, wider the longer the view rests (Salvi 2016).
+        Vec4 past =
+            whole ? p.past.color[level_at(p, i32(ex), i32(ey))] : sharp_lookup(p.past.color, p.width, p.height, ex, ey);
+        // Held to what the neighborhood's colors allow (Salvi 2016), wider the longer the view rests.
         const float scale = 1 / count, wide = 1.25f + 0.25f * smaller(float(f.rested), 1e4f);
         const Vec3 mean = sum * scale;
         const Vec3 v = squares * scale - mean * mean;
         const Vec3 d{wide * std::sqrt(larger(0, v.x)) + 1e-5f, wide * std::sqrt(larger(0, v.y)) + 1e-5f,
                      wide * std::sqrt(larger(0, v.z)) + 1e-5f};
-        const Vec3 from = past - mean;
+        const Vec3 from = squeezed(past) - mean;
         const float over = larger(std::fabs(from.x) / d.x, larger(std::fabs(from.y) / d.y, std::fabs(from.z) / d.z));
-        if (over > 1) past = mean + from * (1 / over);
-        const float part = f.rest ? 1 / smaller(float(f.rested) + 10, 512) : 0.1f;
-        out = lerp(past, own, part);
+        if (over > 1) {
+            const Vec3 held = unsqueezed(mean + from * (1 / over));
+            past = {held.x, held.y, held.z, 0};
+        }
+        out = toward(past, now, f.rest ? 1 / smaller(float(f.rested) + 10, 512) : 0.1f);
     }
-    const Vec3 rgb = unsqueezed(out);
     const float distance = p.albedo[i].w;
-    p.next.color[i] = {rgb.x, rgb.y, rgb.z, distance};
-    Vec4 shown{rgb.x, rgb.y, rgb.z, distance};
+    out.w = distance;
+    p.next.color[i] = out;
+    Vec4 shown = out;
     if (f.to_mean > 0 && p.sum[i].w > 0) shown = toward(shown, mean_of(p, i), f.to_mean);
     shown.w = distance;
     p.color[i] = shown;
