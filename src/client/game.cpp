@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "client/frame_builder.h"
 #include "client/packs.h"
 #include "gfx/context.h"
 #include "math/angle.h"
@@ -106,17 +105,6 @@ static void fill_hotbar(GameState& state) {
     std::sort(state.block_names.begin(), state.block_names.end());
 }
 
-static CameraPose camera(const GameState& state) {
-    const replica::Replica& replica = state.game->replica();
-    CameraPose pose;
-    pose.eye = {replica.body().feet.dimension,
-                interpolate(eye_of(replica.body_before()), eye_of(replica.body()), replica.alpha())};
-    pose.yaw_deg = state.yaw_deg;
-    pose.pitch_deg = state.pitch_deg;
-    pose.fov_deg = state.settings.fov_deg;
-    return pose;
-}
-
 static replica::Gaze gaze(const GameState& state, const CameraPose& pose) {
     const float up = std::tan(pose.fov_deg * kRadiansADegree * 0.5f);
     const float aside = up * float(state.window->width()) / float(std::max(state.window->height(), 1u));
@@ -131,14 +119,15 @@ static void update_world(GameState& state, float seconds) {
         state.quit = true;
         return;
     }
+    move_camera(state, seconds);
     replica.move(move_input(state), seconds);
     for (const auto& answer : replica.take_answers())
         if (answer.outcome == net::EditOutcome::refused) say(state, answer.reason);
     for (const auto& notice : replica.take_notices())
         say(state, notice.from.empty() ? notice.text : fmt::format("{}: {}", notice.from, notice.text));
     const CameraPose pose = camera(state);
-    replica.ask_for_sections(gaze(state, pose));
-    state.hit = pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree), kReach);
+    if (!state.free_eye) replica.ask_for_sections(gaze(state, pose));
+    state.hit = state.free_eye ? std::nullopt : pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree), kReach);
     act_on_world(state);
     state.feeder->update(replica, block_of(pose.eye.at), feed_budget_ms(seconds));
 }

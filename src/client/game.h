@@ -2,6 +2,8 @@
 // functions that work on it stand in game_input.cpp, game_hud.cpp and game.cpp.
 #pragma once
 
+#include "client/controls.h"
+#include "client/frame_builder.h"
 #include "client/local_game.h"
 #include "client/section_feeder.h"
 #include "client/settings.h"
@@ -67,8 +69,12 @@ struct GameState {
     bool break_clicked = false, place_clicked = false; // since the last frame
     double next_break_seconds = 0, next_place_seconds = 0;
     bool screenshot_wanted = false, pick_wanted = false;
+    bool time_paused = false; // asked of the server
+    bool arrow_look = false;  // the mouse is free
+    std::optional<Located<WorldPos>> free_eye; // free camera: the body stays, and nothing is asked for from here
 
     // Interface.
+    std::optional<Action> key_waiting; // the menu: the next key is for this
     bool paused = false, block_list_open = false, debug_text = false, hide_ui = false, quit = false;
     std::string block_filter;
     std::vector<std::string> block_names;
@@ -86,7 +92,9 @@ struct GameState {
 void handle_events(GameState& state, const std::vector<platform::InputEvent>& events);
 void act_on_world(GameState& state); // break, place, pick as the held buttons say
 void set_paused(GameState& state, bool paused);
-MoveCommand move_input(GameState& state); // of the keys held now
+MoveCommand move_input(GameState& state); // of the keys held now; nothing while the camera is free
+void move_camera(GameState& state, float seconds); // looks by arrow keys; moves the free camera
+CameraPose camera(const GameState& state);
 
 // game_hud.cpp
 void draw_interface(GameState& state);

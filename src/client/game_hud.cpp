@@ -36,7 +36,7 @@ std::vector<std::string> debug_lines_left(const GameState& state) {
         fmt::format("looks {}  yaw {:.1f} pitch {:.1f}", compass(state.yaw_deg), state.yaw_deg, state.pitch_deg),
         fmt::format("light sky {}  r {} g {} b {}", light.sky(), light.red(), light.green(), light.blue()),
         fmt::format("biome {}", here ? replica.biomes().name(here->biomes.at(local_of(block))) : "?"),
-        fmt::format("time {:.0f}", replica.time_of_day()),
+        fmt::format("time {:.0f}{}{}", replica.time_of_day(), state.time_paused ? " stopped" : "", state.free_eye ? "  free camera" : ""),
         "",
         fmt::format("sections {} of {}  draws {}  quads {}", frame.sections_visible, frame.sections, frame.draws, frame.quads),
         fmt::format("meshing {} waiting, {} at work, {} done", feeder.waiting, feeder.in_flight, feeder.meshed),
@@ -145,6 +145,12 @@ void draw_interface(GameState& state) {
         if (!(before == state.settings)) apply_settings(state, before);
         if (action == MenuAction::resume) set_paused(state, false);
         if (action == MenuAction::quit) state.quit = true;
+        bool usual_wanted = false;
+        draw_keys(state.settings.controls, state.key_waiting, usual_wanted);
+        if (usual_wanted) {
+            state.settings.controls = {};
+            keep_settings(state);
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 #include "client/settings.h"
 
+#include "platform/key_names.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -101,6 +103,25 @@ static std::string effects_text(const render::Effects& effects) {
     return text;
 }
 
+// A table [keys] of what is not as usual: action = "key", "" for none.
+static void read_keys(const toml::table& table, Bindings& controls) {
+    const toml::table* changes = table["keys"].as_table();
+    if (!changes) return;
+    for (const ActionInfo& info : actions()) {
+        const auto name = (*changes)[info.key].value_exact<std::string>();
+        if (!name) continue;
+        if (name->empty()) (void)controls.bind(info.action, platform::Key::none);
+        else if (const auto key = platform::key_from(*name)) (void)controls.bind(info.action, *key);
+    }
+}
+
+static std::string keys_text(const Bindings& controls) {
+    std::string text;
+    for (const ActionInfo& info : actions())
+        if (controls.of(info.action) != info.usual) text += fmt::format("{} = \"{}\"\n", info.key, platform::key_name(controls.of(info.action)));
+    return text.empty() ? text : "[keys]\n" + text;
+}
+
 Result<Settings> load_settings(const fs::path& path) {
     Settings settings;
     std::error_code ignored;
@@ -118,6 +139,7 @@ Result<Settings> load_settings(const fs::path& path) {
     });
     read_packs(table, settings.packs);
     read_effects(table, settings.effects);
+    read_keys(table, settings.controls);
     return sane(settings);
 }
 
@@ -132,6 +154,7 @@ Result<> save_settings(const fs::path& path, const Settings& settings) {
     });
     text += packs_text(copy.packs); // before the table: keys after it would be its own
     text += effects_text(copy.effects);
+    text += keys_text(copy.controls);
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     const fs::path draft = fmt::format("{}.{}.part", path.string(), getpid());

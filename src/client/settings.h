@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "base/types.h"
+#include "client/controls.h"
 #include "render/effects.h"
 
 #include <filesystem>
@@ -22,6 +23,7 @@ struct Settings {
     float gamma = 1;     // exposure, 0.5..2
     float ui_scale = 1;  // 0.5..3
     i32 frame_limit = 0; // frames a second, 0 none
+    Bindings controls;
     std::vector<std::string> packs; // paths of resource packs, the later over the earlier; at most 64
     bool operator==(const Settings&) const = default;
 };

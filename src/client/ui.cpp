@@ -1,12 +1,14 @@
 #include "client/ui.h"
 
+#include "platform/key_names.h"
+
 #include <algorithm>
 #include <cstdint>
+#include <fmt/format.h>
 #include <imgui/imgui.h>
 #include <imgui/imgui_stdlib.h>
 
 namespace vitrail::client {
-
 
 void apply_style(float ui_scale) {
     ImGui::GetIO().IniFilename = nullptr; // nothing is written beside the program
@@ -162,6 +164,25 @@ MenuAction draw_pause_menu(Settings& settings) {
         if (action == MenuAction::none) action = MenuAction::settings_changed;
     }
     return action;
+}
+
+void draw_keys(const Bindings& controls, std::optional<Action>& waiting, bool& usual_wanted) {
+    ImGui::Begin("Paused"); // goes on with it
+    if (ImGui::CollapsingHeader("Keys")) {
+        ImGui::BeginChild("keys", {0, ImGui::GetTextLineHeightWithSpacing() * 8});
+        for (const ActionInfo& info : actions()) {
+            const bool this_one = waiting == info.action;
+            const std::string_view key = platform::key_name(controls.of(info.action));
+            const std::string label = fmt::format("{}##{}", this_one ? std::string_view("press a key") : key.empty() ? std::string_view("-") : key, info.key);
+            if (ImGui::Button(label.c_str(), {ImGui::GetContentRegionAvail().x * 0.35f, 0}))
+                waiting = this_one ? std::nullopt : std::optional(info.action);
+            ImGui::SameLine();
+            ImGui::TextUnformatted(info.name.data(), info.name.data() + info.name.size());
+        }
+        usual_wanted = ImGui::Button("The usual keys");
+        ImGui::EndChild();
+    }
+    ImGui::End();
 }
 
 int draw_block_list(const std::vector<std::string>& names, std::string& filter, bool& open) {

@@ -5,6 +5,7 @@
 #include "base/types.h"
 #include "client/settings.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ void draw_notices(const std::vector<std::string>& lines);
 void draw_loading(const std::string& text, float progress);
 // Changes `settings` in place; answers what the player wants.
 MenuAction draw_pause_menu(Settings& settings);
+// Part of the pause menu: which key does what. waiting: the action whose key the player is about to press.
+void draw_keys(const Bindings& controls, std::optional<Action>& waiting, bool& usual_wanted);
 // Block picker (E): answers the index chosen in `names`, or -1. `filter` keeps what was typed.
 int draw_block_list(const std::vector<std::string>& names, std::string& filter, bool& open);
 // Colors and roundings of all of it; once after the UiLayer exists.
