@@ -2,7 +2,8 @@
 
 for _, wax in ipairs { "", "waxed_" } do
   for _, stage in ipairs { "", "exposed_", "weathered_", "oxidized_" } do
-    local def = merge(METAL, { hardness = 3 })
+    -- The patina of the later stages is a salt.
+    local def = merge(METAL, { hardness = 3, optics = (stage == "weathered_" or stage == "oxidized_") and "matte" or nil })
     local full = stage == "" and "copper_block" or stage .. "copper"
     block(wax .. full, merge(def, { texture = full }))
     local cut = stage .. "cut_copper"

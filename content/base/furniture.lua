@@ -18,7 +18,7 @@ wood("beehive", { "beehive_front", "beehive_side", "beehive_end", "beehive_end" 
 wood("bee_nest", { "bee_nest_front", "bee_nest_side", "bee_nest_top", "bee_nest_bottom" }, "facing honey_level:0-5", { hardness = 0.3 })
 block("honeycomb_block", { texture = "honeycomb_block", material = "plant", hardness = 0.6 })
 block("honey_block", { texture = "honey_block", shape = "boxes", boxes = { { 1, 0, 1, 15, 15, 15 } }, layer = "translucent", transparency = 0.4,
-  opacity = 0, material = "plant", hardness = 0, viscosity = 0.4 })
+  opacity = 0, material = "plant", hardness = 0, viscosity = 0.4, ior = 1.48 })
 block("slime_block", { texture = "slime_block", layer = "translucent", transparency = 0.4, opacity = 0, material = "plant", hardness = 0 })
 
 -- Furnaces and their kin: dark until lit.

@@ -14,14 +14,17 @@ end
 block("nether_gold_ore", merge(STONE, { texture = "nether_gold_ore", hardness = 3 }))
 block("nether_quartz_ore", merge(STONE, { texture = "nether_quartz_ore", hardness = 3 }))
 
-for _, name in ipairs { "iron_block", "gold_block", "diamond_block", "emerald_block", "netherite_block", "raw_iron_block",
-  "raw_gold_block", "raw_copper_block" } do
+for _, name in ipairs { "iron_block", "gold_block", "netherite_block" } do
   block(name, merge(METAL, { texture = name }))
+end
+-- They sound like metal, but are gems and ore.
+for _, name in ipairs { "diamond_block", "emerald_block", "raw_iron_block", "raw_gold_block", "raw_copper_block" } do
+  block(name, merge(METAL, { texture = name, optics = "matte" }))
 end
 block("coal_block", merge(STONE, { texture = "coal_block", hardness = 5 }))
 block("lapis_block", merge(STONE, { texture = "lapis_block", hardness = 3 }))
-block("redstone_block", merge(METAL, { texture = "redstone_block" }))
-block("ancient_debris", merge(METAL, { texture = { "ancient_debris_side", "ancient_debris_top" }, hardness = 30 }))
+block("redstone_block", merge(METAL, { texture = "redstone_block", optics = "matte" }))
+block("ancient_debris", merge(METAL, { optics = "matte", texture = { "ancient_debris_side", "ancient_debris_top" }, hardness = 30 }))
 
 local crystal = { material = "crystal", hardness = 1.5 }
 block("amethyst_block", merge(crystal, { texture = "amethyst_block" }))

@@ -22,6 +22,9 @@ struct WireLook {
     u32 tint_color = 0xffffff;
     std::string material;
     bool replaceable = false, climbable = false, sway = false;
+    u8 optics = 0;
+    float ior = 0;
+    std::vector<float> absorption; // empty or r, g, b
     static constexpr auto fields =
         std::tuple{field<1>("shape", &WireLook::shape, {.most_value = i64(ShapeKind::count) - 1}),
                    field<2>("layer", &WireLook::layer, {.most_value = 3}),
@@ -39,7 +42,10 @@ struct WireLook {
                    field<14>("material", &WireLook::material, {.most = 64}),
                    field<15>("replaceable", &WireLook::replaceable),
                    field<16>("climbable", &WireLook::climbable),
-                   field<17>("sway", &WireLook::sway)};
+                   field<17>("sway", &WireLook::sway),
+                   field<18>("optics", &WireLook::optics, {.most_value = i64(OpticsKind::count) - 1}),
+                   field<19>("ior", &WireLook::ior),
+                   field<20>("absorption", &WireLook::absorption, {.most = 3})};
 };
 
 struct WireVariant {
@@ -107,6 +113,8 @@ WireLook to_wire(const BlockLook& l) {
     w.tint = u8(l.tint), w.tint_faces = u8(l.tint_faces), w.tint_color = pack(l.tint_color);
     w.material = l.material;
     w.replaceable = l.replaceable, w.climbable = l.climbable, w.sway = l.sway;
+    w.optics = u8(l.optics), w.ior = l.ior;
+    if (l.absorption != std::array<float, 3>{}) w.absorption.assign(l.absorption.begin(), l.absorption.end());
     return w;
 }
 
@@ -121,6 +129,11 @@ BlockLook from_wire(WireLook w) {
     l.tint = TintKind(w.tint), l.tint_faces = TintFaces(w.tint_faces), l.tint_color = unpack(w.tint_color);
     l.material = std::move(w.material);
     l.replaceable = w.replaceable, l.climbable = w.climbable, l.sway = w.sway;
+    l.optics = OpticsKind(w.optics);
+    // From anyone: numbers that no shader minds.
+    if (w.ior >= 1 && w.ior <= 4) l.ior = w.ior;
+    for (std::size_t c = 0; w.absorption.size() == 3 && c < 3; ++c)
+        if (w.absorption[c] >= 0 && w.absorption[c] <= 100) l.absorption[c] = w.absorption[c];
     return l;
 }
 

@@ -115,6 +115,17 @@ Result<> read_tint(const Value& value, BlockLook& look) {
     return {};
 }
 
+Result<std::array<float, 3>> read_absorption(const Value& value) {
+    const Value::Table* list = value.table();
+    if (!list || !list->is_list() || list->entries.size() != 3)
+        return expected("{red, green, blue}, each 0 to 100 a block", value);
+    std::array<float, 3> out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        VX_TRY_ASSIGN(out[i], read_number(list->entries[i].second, 0, 100));
+    }
+    return out;
+}
+
 // A look while it is being laid together: whether opacity was said or follows from the rest.
 struct LookBuilder {
     BlockLook look;
@@ -168,6 +179,13 @@ struct LookBuilder {
             VX_TRY_ASSIGN(look.climbable, read_bool(value));
         } else if (key == "sway") {
             VX_TRY_ASSIGN(look.sway, read_bool(value));
+        } else if (key == "optics") {
+            VX_TRY_ASSIGN(const std::size_t kind, read_choice(value, kOpticsKindNames));
+            look.optics = OpticsKind(kind);
+        } else if (key == "ior") {
+            VX_TRY_ASSIGN(look.ior, read_number(value, 1, 4));
+        } else if (key == "absorption") {
+            VX_TRY_ASSIGN(look.absorption, read_absorption(value));
         } else
             return false;
         return true;

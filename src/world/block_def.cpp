@@ -8,4 +8,8 @@ const std::array<const char*, std::size_t(ShapeKind::count)> kShapeKindNames = {
     "layers", "carpet",    "ladder", "faces", "rail",       "button", "lever",    "pressure_plate",
     "sign",   "wall_sign", "chest",  "bed",   "lantern",    "chain",  "lily_pad", "boxes"};
 
+const std::array<const char*, std::size_t(OpticsKind::count)> kOpticsKindNames = {
+    "automatic", "matte", "metal", "leaf", "thin", "dielectric", "water",
+};
+
 } // namespace vitrail

@@ -21,6 +21,11 @@ enum class ShapeKind : u8 {
 // Names as content writes them, in enum order.
 extern const std::array<const char*, std::size_t(ShapeKind::count)> kShapeKindNames;
 
+// How a block treats light where paths are traced; automatic: as layer, shape and material say (docs/content.md).
+enum class OpticsKind : u8 { automatic, matte, metal, leaf, thin, dielectric, water, count };
+// Names as content writes them, in enum order.
+extern const std::array<const char*, std::size_t(OpticsKind::count)> kOpticsKindNames;
+
 enum class TintKind : u8 { none, grass, foliage, water, fixed };
 enum class TintFaces : u8 { all, top };
 
@@ -64,6 +69,9 @@ struct BlockLook {
     bool replaceable = false;       // a block can be placed into it
     bool climbable = false;
     bool sway = false;              // moves in the wind
+    OpticsKind optics = OpticsKind::automatic;
+    float ior = 0;                  // index of refraction; 0: as the optics have it
+    std::array<float, 3> absorption{}; // r, g, b a block, base e, in dielectrics; all 0: as the picture's color says
 };
 
 struct BlockVariant {

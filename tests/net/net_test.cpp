@@ -49,7 +49,8 @@ std::vector<ServerMessage> server_messages(Rng& rng) {
     Welcome welcome;
     welcome.player = rng.below(100), welcome.body = random_body(rng), welcome.tick = rng.next();
     welcome.dimensions = {{0, "minecraft:overworld", -64, 320, true}, {1, random_text(rng, 20), 0, 128, false}};
-    welcome.time_of_day = rng.below(24000), welcome.day = rng.below(9999), welcome.day_minutes = rng.below(1441), welcome.content_hash = rng.next(), welcome.view_distance = 12;
+    welcome.time_of_day = rng.below(24000), welcome.day = rng.below(9999), welcome.day_minutes = rng.below(1441),
+    welcome.content_hash = rng.next(), welcome.view_distance = 12;
     welcome.hotbar = {"a", random_text(rng, 30)}, welcome.hotbar_selected = rng.below(9), welcome.seed = rng.next();
     all.emplace_back(welcome);
     all.emplace_back(RegistryData{Bytes(rng.below(300), 7)});
@@ -220,6 +221,9 @@ TEST(Registry, TravelsWhole) {
     def.look.hardness = -1;
     BlockVariant variant{{{"half", "top"}}, def.look};
     variant.look.opacity = 3;
+    variant.look.optics = OpticsKind::dielectric;
+    variant.look.ior = 2.3f;
+    variant.look.absorption = {0.5f, 0, 4};
     def.variants.push_back(variant);
     const BlockId id = registry.add_block(def);
     registry.add_texture({"oak_planks", 4});
@@ -234,6 +238,11 @@ TEST(Registry, TravelsWhole) {
     const BlockDef& got = (*back)->blocks()[u32(id)];
     EXPECT_EQ(got.variants.size(), 1u);
     EXPECT_EQ(got.variants[0].look.opacity, 3);
+    EXPECT_EQ(got.variants[0].look.optics, OpticsKind::dielectric);
+    EXPECT_EQ(got.variants[0].look.ior, 2.3f);
+    EXPECT_EQ(got.variants[0].look.absorption, variant.look.absorption);
+    EXPECT_EQ(got.look.optics, OpticsKind::automatic);
+    EXPECT_EQ(got.look.ior, 0);
     EXPECT_EQ(got.look.light, def.look.light);
     EXPECT_EQ((*back)->biome_named("minecraft:desert").grass, biome.grass);
     EXPECT_EQ(encode_registry(**back), bytes);

@@ -43,7 +43,7 @@ TEST(Content, ReadsEveryKey) {
         define_block("lamp", { properties = { lit = { true, false }, power = { 0, 1, 2 } }, default = { lit = false, power = 2 },
             texture = { "lamp_side", "lamp_top" }, shape = "slab", layer = "cutout_mipped", transparency = 0.25, opacity = 3, light = { 1, 2, 3 },
             hardness = -1, viscosity = 0.5, collision = false, tint = { 10, 20, 30 }, tint_faces = "top", material = "metal", replaceable = true,
-            climbable = true, sway = true, hidden_from_hotbar = true, boxes = { { 0, 0, 0, 16, 0.25, 16, "wire" } } })
+            climbable = true, sway = true, optics = "dielectric", ior = 1.31, absorption = { 0.5, 0.25, 0 }, hidden_from_hotbar = true, boxes = { { 0, 0, 0, 16, 0.25, 16, "wire" } } })
         define_block("vitrail:plain", { texture = "plain", light = 7, tint = "grass" })
         define_texture("fire", { frame_time = 2 })
         define_biome("plains", { temperature = 0.5, downfall = 0.25, grass = { 1, 2, 3 }, water = { 4, 5, 6 } })
@@ -71,6 +71,9 @@ TEST(Content, ReadsEveryKey) {
     EXPECT_EQ(look.tint_faces, TintFaces::top);
     EXPECT_EQ(look.material, "metal");
     EXPECT_TRUE(look.replaceable && look.climbable && look.sway);
+    EXPECT_EQ(look.optics, OpticsKind::dielectric);
+    EXPECT_EQ(look.ior, 1.31f);
+    EXPECT_THAT(look.absorption, ElementsAre(0.5f, 0.25f, 0.0f));
     EXPECT_FALSE(lamp.in_hotbar_list);
     ASSERT_EQ(look.boxes.size(), 1u);
     EXPECT_EQ(look.boxes[0].y1, 0.25f);
@@ -180,6 +183,9 @@ TEST(Content, ErrorsNameFileBlockAndWhatWasExpected) {
               "test.lua:1: minecraft:stone: light: expected a whole number from 0 to 15, got 16");
     EXPECT_THAT(error_of("define_block('stone', { light = 'x' })"),
                 HasSubstr("light: expected a number or {red, green, blue} of 0 to 15, got \"x\""));
+    EXPECT_THAT(error_of("define_block('stone', { optics = 'foggy' })"), HasSubstr("optics: expected one of automatic"));
+    EXPECT_THAT(error_of("define_block('stone', { ior = 0.5 })"), HasSubstr("ior: expected a number from 1 to 4"));
+    EXPECT_THAT(error_of("define_block('stone', { absorption = { 1, 2 } })"), HasSubstr("absorption: expected {red"));
     EXPECT_THAT(error_of("define_block('stone', { shape = 'ball' })"),
                 HasSubstr("shape: expected one of none, cube, pillar"));
     EXPECT_THAT(error_of("define_block('stone', { texture = {} })"),

@@ -29,7 +29,7 @@ end
 local SHAPES = set "cube pillar slab stairs fence wall fence_gate pane cross crop torch wall_torch door trapdoor liquid layers carpet ladder faces rail button lever pressure_plate sign wall_sign chest bed lantern chain lily_pad boxes none"
 local LAYERS = set "solid cutout cutout_mipped translucent"
 local MATERIALS = set "stone wood dirt sand plant leaves glass water lava snow ice metal wool crystal"
-local FIELDS = set "properties default texture shape layer transparency opacity light hardness viscosity collision tint tint_faces material replaceable climbable hidden_from_hotbar sway variants boxes"
+local FIELDS = set "properties default texture shape layer transparency opacity light hardness viscosity collision tint tint_faces material replaceable climbable hidden_from_hotbar sway optics ior absorption variants boxes"
 local NEEDS = { pillar = "axis", slab = "type", stairs = "facing half shape", fence = "north east south west", wall = "north east south west up",
   fence_gate = "facing open in_wall", pane = "north east south west", wall_torch = "facing", door = "facing half hinge open",
   trapdoor = "facing half open", layers = "layers", ladder = "facing", faces = "north east south west up", rail = "shape",
