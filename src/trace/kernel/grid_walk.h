@@ -1,0 +1,96 @@
+// The next cell that matters to a ray: one flat loop that steps over empty areas, chunks, bricks and cells alike.
+// Kernel-safe.
+#pragma once
+
+#include "trace/kernel/grid_view.h"
+#include "trace/kernel/walk.h"
+
+namespace vitrail::trace {
+
+inline constexpr u32 kCellsMost = 16384; // steps of one ray
+
+// What a ray looks for: cells set in a mask, or each one (in media without masks).
+enum class Seek : u8 { air = 0, water = 1, any = 2 };
+
+// Log2 of the empty aligned box around a cell of the window, in cells; stop: the cell itself counts, the box is 1.
+VX_HD u32 empty_box(const GridView& g, IVec3 cell, Through through, bool& stop) {
+    stop = false;
+    const u32 set = u32(through);
+    const IVec3 chunk{cell.x >> 4, cell.y >> 4, cell.z >> 4};
+    const GridChunk& c = g.chunks[slot_of(g, chunk)];
+    if (c.bricks[set] == 0) return g.areas[set][area_slot_of(g, chunk)] == 0 ? 6 : 4;
+    const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
+    if (!(c.bricks[set] >> brick & 1)) return 2;
+    const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
+    stop = g.masks[c.masks[set] * 64 + brick] >> bit & 1;
+    return 0;
+}
+
+// Last plane, relative to `start`, of the aligned box of 2^bits cells around `cell`, for a ray that runs up or down.
+VX_HD i32 box_plane(i32 cell, i32 start, u32 bits, bool up) {
+    return i32(((u32(cell >> bits) + (up ? 1u : 0u)) << bits) - u32(start));
+}
+
+// A ray outside of the window: moves it to the next of the window's planes. False: it never comes in.
+VX_HD bool approach_axis(u32 cell, u32 bits, bool up, bool still, i32 at, i32& plane) {
+    const u32 size = 16u << bits;
+    if (cell < size) {
+        plane = at + (up ? i32(size - cell) : -i32(cell));
+        return true;
+    }
+    const i32 from_low = i32(cell); // outside: below, or beyond
+    const bool below = from_low < 0;
+    const u32 away = below ? u32(-from_low) : cell - size;
+    if (still || below != up || away > u32(kReach)) return false;
+    plane = at + (below ? i32(away) : -i32(away));
+    return true;
+}
+
+VX_HD bool in_window_cell(const GridView& g, IVec3 cell) {
+    return (u32(cell.x) - u32(g.first.x) * 16) >> (g.bits_x + 4) == 0 &&
+           (u32(cell.y) - u32(g.first.y) * 16) >> (g.bits_y + 4) == 0 &&
+           (u32(cell.z) - u32(g.first.z) * 16) >> (g.bits_z + 4) == 0;
+}
+
+VX_HD bool approach(const GridView& g, const Ray& ray, Walk& w) {
+    const IVec3 c = w.cell();
+    IVec3 p;
+    if (!approach_axis(u32(c.x) - u32(g.first.x) * 16, g.bits_x, w.up & 1, w.ix > 1e100, w.x, p.x) ||
+        !approach_axis(u32(c.y) - u32(g.first.y) * 16, g.bits_y, w.up & 2, w.iy > 1e100, w.y, p.y) ||
+        !approach_axis(u32(c.z) - u32(g.first.z) * 16, g.bits_z, w.up & 4, w.iz > 1e100, w.z, p.z))
+        return false;
+    leave_box(w, ray, p);
+    return true;
+}
+
+enum class Walked : u8 { stopped, ended, lost };
+
+// Moves to the next cell, beyond the one it is in, that stops the ray; ended: none that is entered before t_most.
+// `steps` counts down. Outside of the window there is air: a ray in another medium stops there.
+VX_HD Walked next_stop(const GridView& g, const Ray& ray, Walk& w, Seek seek, double t_most, u32& steps) {
+    bool fresh = true;
+    for (;;) {
+        const IVec3 cell = w.cell();
+        if (in_window_cell(g, cell)) {
+            bool stop = true;
+            const u32 bits = seek == Seek::any ? 0 : empty_box(g, cell, Through(u8(seek)), stop);
+            if (stop && !fresh) return Walked::stopped;
+            if (bits == 0)
+                step_cell(w);
+            else
+                leave_box(w, ray,
+                          {box_plane(cell.x, w.start.x, bits, w.up & 1), box_plane(cell.y, w.start.y, bits, w.up & 2),
+                           box_plane(cell.z, w.start.z, bits, w.up & 4)});
+        } else if (seek != Seek::air) {
+            if (!fresh) return Walked::stopped;
+            step_cell(w);
+        } else if (!approach(g, ray, w)) {
+            return Walked::ended;
+        }
+        fresh = false;
+        if (!(w.t < t_most)) return Walked::ended;
+        if (steps-- == 0) return Walked::lost;
+    }
+}
+
+} // namespace vitrail::trace

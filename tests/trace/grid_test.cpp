@@ -1,0 +1,215 @@
+// The grid kept by edits, chunks that come and go, and moves of the window equals one that is built at once.
+#include "grid_world.h"
+
+#include <gtest/gtest.h>
+
+namespace vitrail::trace {
+namespace {
+
+// What the grid must say of every cell of its window, from states alone.
+void expect_right(const GridWorld& world, const Grid& grid, IVec3 corner, const std::function<u32(IVec3)>& state) {
+    const GridView g = grid.view();
+    ASSERT_EQ(g.first, (IVec3{corner.x >> 4, corner.y >> 4, corner.z >> 4}));
+    const auto& states = world.content.states;
+    for (i32 cy = 0; cy < 4; ++cy)
+        for (i32 cz = 0; cz < 4; ++cz)
+            for (i32 cx = 0; cx < 4; ++cx) {
+                const IVec3 chunk{g.first.x + cx, g.first.y + cy, g.first.z + cz};
+                const GridChunk& c = g.chunks[slot_of(g, chunk)];
+                const u32 area_bit = u32(chunk.x & 3) | u32(chunk.z & 3) << 2 | u32(chunk.y & 3) << 4;
+                u64 bricks[2] = {0, 0};
+                for (u32 cell = 0; cell < 4096; ++cell) {
+                    const u32 x = cell & 15, z = cell >> 4 & 15, y = cell >> 8;
+                    const IVec3 at{chunk.x * 16 + i32(x), chunk.y * 16 + i32(y), chunk.z * 16 + i32(z)};
+                    const u32 is = state(at), above = state({at.x, at.y + 1, at.z});
+                    ASSERT_EQ(state_at(g, at), is);
+                    const u32 brick = x / 4 | z / 4 << 2 | y / 4 << 4, bit = x % 4 | (z % 4) << 2 | (y % 4) << 4;
+                    const bool full_water =
+                        states[is].kind == CellKind::liquid && states[is].medium == 1 && states[above].medium == 1;
+                    const bool stops[2] = {states[is].kind != CellKind::empty, !full_water};
+                    for (u32 set = 0; set < 2; ++set) {
+                        ASSERT_EQ(g.masks[c.masks[set] * 64 + brick] >> bit & 1, u64(stops[set])) << set;
+                        bricks[set] |= u64(stops[set]) << brick;
+                    }
+                    ASSERT_EQ(g.masks[c.opaque * 64 + brick] >> bit & 1, u64(states[is].kind == CellKind::cube));
+                }
+                for (u32 set = 0; set < 2; ++set) {
+                    ASSERT_EQ(c.bricks[set], bricks[set]);
+                    ASSERT_EQ(g.areas[set][area_slot_of(g, chunk)] >> area_bit & 1, u64(bricks[set] != 0));
+                }
+            }
+}
+
+void expect_right(const GridWorld& world) {
+    expect_right(world, world.grid, world.corner(), [&](IVec3 p) { return world.state(p); });
+}
+
+TEST(Grid, BuiltAtOnce) {
+    Rng rng(11);
+    GridWorld world({4, -4, 8});
+    world.scatter(rng, t_stone, 0.2, 4);
+    world.scatter(rng, t_water, 0.2, 8);
+    world.scatter(rng, t_sunken, 0.02);
+    ThreadPool pool(2);
+    world.upload(&pool);
+    expect_right(world);
+}
+
+TEST(Grid, EditsEqualARebuild) {
+    Rng rng(12);
+    GridWorld world({-4, 4, -8});
+    world.scatter(rng, t_stone, 0.1, 16);
+    world.scatter(rng, t_water, 0.2, 16);
+    world.upload();
+    for (u32 round = 0; round < 12; ++round) {
+        EditBatch batch;
+        ChangeSet changes;
+        for (u32 i = 0; i < 60; ++i) {
+            // Near one place, so that layers of neighboring chunks meet; and all states there are.
+            const i32 x = i32(rng.below(20)), y = i32(rng.below(24)) + 12, z = i32(rng.below(20));
+            const u32 state = rng.below(t_states);
+            const BlockPos at{world.corner().x + x, world.corner().y + y, world.corner().z + z};
+            batch.edits.push_back({at, StateId(state)});
+            changes.blocks.push_back({at, StateId(world.at(x, y, z)), StateId(state)});
+            world.at(x, y, z) = state;
+        }
+        if (round % 2)
+            world.grid.apply(batch);
+        else
+            world.grid.apply(changes);
+        if (round % 4 == 3) expect_right(world);
+    }
+    // A chunk goes, another comes again.
+    const BlockStorage air;
+    for (i32 i = 0; i < 4; ++i) {
+        const i32 cx = i32(rng.below(2)), cy = i32(rng.below(3)), cz = i32(rng.below(2));
+        world.grid.set_chunk(world.chunk_pos(cx, cy, cz), nullptr);
+        for (u32 c = 0; c < 4096; ++c)
+            world.at(cx * 16 + LocalPos(c).x(), cy * 16 + LocalPos(c).y(), cz * 16 + LocalPos(c).z()) = 0;
+        expect_right(world);
+        Chunk chunk;
+        chunk.blocks = BlockStorage(StateId(t_water));
+        world.grid.set_chunk(world.chunk_pos(cx, cy, cz), &chunk);
+        for (u32 c = 0; c < 4096; ++c)
+            world.at(cx * 16 + LocalPos(c).x(), cy * 16 + LocalPos(c).y(), cz * 16 + LocalPos(c).z()) = t_water;
+        expect_right(world);
+    }
+}
+
+TEST(Grid, MovesKeepWhatStaysAndDropTheRest) {
+    Rng rng(13);
+    GridWorld world;
+    Grid grid({3, 3, 3});
+    grid.set_states(world.content.states, world.content.media);
+    grid.center_on({0, 0, 0});
+    std::unordered_map<ChunkPos, StateId> held;
+    ChunkPos center{0, 0, 0};
+    u64 kept = 0;
+    for (u32 step = 0; step < 60; ++step) {
+        for (u32 i = 0; i < 40; ++i) {
+            const auto near = [&](i32 c) { return c + i32(rng.below(9)) - 4; };
+            const ChunkPos at{near(center.x), near(center.y), near(center.z)};
+            Chunk chunk;
+            const StateId state = StateId(rng.below(t_states));
+            chunk.blocks = BlockStorage(state);
+            grid.set_chunk(at, &chunk);
+            if (grid.in_window(at)) held[at] = state;
+        }
+        center = {center.x + i32(rng.below(5)) - 2, center.y + i32(rng.below(9)) - 4,
+                  center.z + i32(rng.below(10)) - 4};
+        grid.center_on(center);
+        std::erase_if(held, [&](const auto& h) { return !grid.in_window(h.first); });
+        ASSERT_EQ(grid.chunk_count(), held.size());
+        kept += held.size();
+        const GridView g = grid.view();
+        ASSERT_EQ(g.first.x % 4, 0);
+        ASSERT_LE(std::abs(g.first.x + 4 - center.x), 2);
+        for (i32 i = 0; i < 512; ++i) {
+            const ChunkPos at{g.first.x + i % 8, g.first.y + i / 64, g.first.z + i / 8 % 8};
+            const auto state_of = [&](ChunkPos c) {
+                const auto it = held.find(c);
+                return it == held.end() ? u32(0) : u32(it->second);
+            };
+            const u32 state = state_of(at), above = state_of({at.x, at.y + 1, at.z});
+            ASSERT_EQ(state_at(g, {at.x * 16 + 3, at.y * 16 + 15, at.z * 16 + 9}), state);
+            const bool wet = state == t_water && (above == t_water || above == t_sunken);
+            const GridChunk& c = g.chunks[slot_of(g, {at.x, at.y, at.z})];
+            ASSERT_EQ(g.masks[c.masks[1] * 64 + 63] >> 63 & 1, u64(!wet));
+            ASSERT_EQ(g.masks[c.masks[1] * 64] & 1, u64(state != t_water));
+            ASSERT_EQ(c.bricks[0], state ? ~u64(0) : 0);
+        }
+    }
+    EXPECT_GT(kept, 600u);
+    grid.clear();
+    ASSERT_EQ(grid.chunk_count(), 0u);
+}
+
+// A mirror that copies only what is told to be dirty holds the same bytes.
+TEST(Grid, DirtyRangesSuffice) {
+    Rng rng(14);
+    GridWorld world;
+    world.scatter(rng, t_stone, 0.3);
+    world.upload();
+    std::array<std::vector<std::byte>, kGridBuffers> mirror;
+    const auto copy = [&] {
+        u64 bytes = 0;
+        for (u32 b = 0; b < kGridBuffers; ++b) {
+            const auto now = world.grid.buffer(GridBuffer(b));
+            mirror[b].resize(now.size());
+            for (const auto& r : world.grid.dirty(GridBuffer(b))) {
+                std::copy(now.begin() + std::ptrdiff_t(r.begin), now.begin() + std::ptrdiff_t(r.end),
+                          mirror[b].begin() + std::ptrdiff_t(r.begin));
+                bytes += r.end - r.begin;
+            }
+            EXPECT_TRUE(std::equal(now.begin(), now.end(), mirror[b].begin(), mirror[b].end())) << b;
+        }
+        world.grid.clean();
+        return bytes;
+    };
+    copy();
+    u32 tints[kTintWords] = {};
+    for (u32 round = 0; round < 50; ++round) {
+        const BlockPos at{world.corner().x + i32(rng.below(64)), world.corner().y + i32(rng.below(64)),
+                          world.corner().z + i32(rng.below(64))};
+        world.grid.apply(EditBatch{{{at, StateId(rng.below(3))}}});
+        EXPECT_LE(copy(), 9000u); // at most the indices of a chunk, where its palette grows
+        if (round % 10 != 9) continue;
+        tints[round] = round / 20;
+        Chunk chunk;
+        world.grid.set_chunk(chunk_of(at), round % 20 == 9 ? nullptr : &chunk, tints);
+        copy();
+    }
+}
+
+TEST(Grid, EqualTintsAreKeptOnce) {
+    GridWorld world;
+    std::vector<u32> green(kTintWords, 0xff00ff00), red(kTintWords, 0xff0000ff);
+    Chunk chunk;
+    for (i32 y = 0; y < 4; ++y)
+        world.grid.set_chunk(world.chunk_pos(1, y, 1), &chunk, y == 3 ? red.data() : green.data());
+    const GridView g = world.grid.view();
+    const auto block = [&](i32 y) {
+        const ChunkPos p = world.chunk_pos(1, y, 1);
+        return world.grid.view().chunks[slot_of(g, {p.x, p.y, p.z})].tints;
+    };
+    EXPECT_EQ(block(0), block(1));
+    EXPECT_NE(block(0), block(3));
+    EXPECT_EQ(world.grid.view().tints[block(3) * kTintWords], 0xff0000ffu);
+    for (i32 y = 0; y < 3; ++y)
+        world.grid.set_chunk(world.chunk_pos(1, y, 1), &chunk, red.data());
+    EXPECT_EQ(block(0), block(3));
+    EXPECT_EQ(world.grid.view().tints[block(0) * kTintWords + 7], 0xff0000ffu);
+}
+
+TEST(Grid, StatesThatChangeRemakeTheMasks) {
+    Rng rng(15);
+    GridWorld world;
+    world.scatter(rng, t_leaves, 0.3);
+    world.upload();
+    world.content.states[t_leaves].kind = CellKind::cube;
+    world.grid.set_states(world.content.states, world.content.media);
+    expect_right(world);
+}
+
+} // namespace
+} // namespace vitrail::trace
