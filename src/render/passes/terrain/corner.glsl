@@ -7,7 +7,11 @@ layout(std430, binding = 2) readonly buffer FixedTints { uint fixed_tints[]; };
 layout(std430, binding = 3) readonly buffer Models { uint models[]; };
 
 const float kLiquidDrop = 28.0 / 256.0; // render/meshing/quad.h
+#ifdef LIQUID
+const float kSeal = 0.0; // blended: what lay under two quads would be drawn twice, in dotted lines
+#else
 const float kSeal = 0.06; // pixels that a cube quad grows by on each side
+#endif
 
 vec3 unpack_color(uint c) { return vec3(c & 255u, c >> 8 & 255u, c >> 16 & 255u) * (1.0 / 255.0); }
 

@@ -81,13 +81,14 @@ Blend shade_liquid(vec3 light_up, vec4 light, vec3 towards, float away, uint num
                                     + bend * min(distance(behind, v_position), 6.0), 1.0);
     ivec2 other = ivec2((to.xy / max(to.w, 1e-3) * 0.5 + 0.5) * screen.xy);
     if (last && to.w > 0.0 && lost < 1.0 && all(greaterThanEqual(other, ivec2(0))) && all(lessThan(other, ivec2(screen.xy)))) {
-        // Not what stands before the water, nor what another view shows.
-        bool good = texelFetch(t_depth, other, 0).r < gl_FragCoord.z;
+        // Not what stands before the water or rises out of it, nor what another view shows.
+        vec3 place = place_behind(view, other);
+        bool good = texelFetch(t_depth, other, 0).r < gl_FragCoord.z && dot(place - v_position, plane) < 0.0;
         vec4 seen = texelFetch(t_scene, other, 0);
         good = good && (uint(seen.a + 0.5) & 7u) == number;
         if (good) {
             shift = seen.rgb - texelFetch(t_scene, pixel, 0).rgb;
-            behind = place_behind(view, other);
+            behind = place;
         }
     }
 #endif
