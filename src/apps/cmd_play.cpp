@@ -44,6 +44,7 @@ Result<> run_play(const PlayOptions& options) {
     VX_TRY(effects_of(options.effects, {})); // wrong words are told before a window opens
     game.change_effects = [arguments = options.effects](const render::Effects& kept) { return *effects_of(arguments, kept); };
     game.screenshot_folder = data_folder() / "screenshots";
+    game.pack_folder = data_folder() / "packs";
     if (const auto path = client::settings_path()) game.settings_file = *path;
     VX_TRY_ASSIGN(const Content content, load_base_content());
     return client::run_game(game, content);

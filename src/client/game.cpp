@@ -197,21 +197,22 @@ Result<> run_game(const GameOptions& options, const Content& content) {
     }
     if (options.view_distance > 0) state.settings.view_distance = options.view_distance;
     VX_TRY(open_window(state));
-    std::shared_ptr<const scene::PackLooks> packs;
+    state.registry = content.registry;
+    state.packs = options.packs.empty() ? state.settings.packs : options.packs;
     if (!options.packs.empty()) {
-        VX_TRY_ASSIGN(packs, open_packs(options.packs, *content.registry));
+        VX_TRY_ASSIGN(state.pack_looks, open_packs(options.packs, *content.registry));
     } else if (auto kept = open_packs(state.settings.packs, *content.registry)) {
-        packs = std::move(*kept);
+        state.pack_looks = std::move(*kept);
     } else { // a pack that was moved away must not keep anybody from playing
         log_warning(kept.error().message);
     }
-    VX_TRY(state.renderer->load_textures(*content.registry, packs.get()));
+    VX_TRY(state.renderer->load_textures(*content.registry, state.pack_looks.get()));
     LocalGameOptions local = options.local;
     local.server.threads = default_worker_count();
     local.replica.view_distance = u32(state.settings.view_distance);
     VX_TRY_ASSIGN(state.game, LocalGame::open(local, content));
     state.pool = std::make_unique<ThreadPool>(default_worker_count());
-    state.feeder = std::make_unique<SectionFeeder>(*state.renderer, *state.pool, packs);
+    state.feeder = std::make_unique<SectionFeeder>(*state.renderer, *state.pool, state.pack_looks);
     VX_TRY_ASSIGN(const bool ready, wait_for_world(state));
     Result<> played;
     if (ready) {

@@ -25,6 +25,7 @@ struct GameOptions {
     LocalGameOptions local;
     std::filesystem::path settings_file;     // empty: not kept
     std::filesystem::path screenshot_folder; // F2
+    std::filesystem::path pack_folder;       // where the menu looks for resource packs
     u32 width = 1280, height = 720;
     i32 view_distance = 0;                   // 0: as the settings say
     std::vector<std::string> packs;          // resource packs; none: as the settings say
@@ -53,6 +54,9 @@ struct GameState {
     GameOptions options;
     Settings settings;
     bool settings_chosen = false; // a settings file was there
+    std::shared_ptr<const BlockRegistry> registry; // that textures were loaded for
+    std::vector<std::string> packs;                // that the player wants; where they cannot be opened none is in use
+    std::shared_ptr<const scene::PackLooks> pack_looks;
     std::unique_ptr<platform::Window> window;
     std::unique_ptr<render::Renderer> renderer;
     std::unique_ptr<render::UiLayer> ui;
@@ -76,6 +80,7 @@ struct GameState {
     // Interface.
     std::optional<Action> key_waiting; // the menu: the next key is for this
     bool paused = false, block_list_open = false, debug_text = false, hide_ui = false, quit = false;
+    PackPage pack_page;
     std::string block_filter;
     std::vector<std::string> block_names;
     Hotbar hotbar;
@@ -101,6 +106,8 @@ void draw_interface(GameState& state);
 std::vector<std::string> debug_lines_left(const GameState& state);
 std::vector<std::string> debug_lines_right(const GameState& state);
 void say(GameState& state, std::string text);
+// While playing, and kept where it works; else tells why and all stays as it was.
+void use_packs(GameState& state, const std::vector<std::string>& paths);
 void keep_settings(GameState& state); // writes them where they are kept
 
 } // namespace vitrail::client

@@ -1,5 +1,6 @@
 #include "base/clock.h"
 #include "client/game.h"
+#include "client/packs.h"
 #include "gfx/context.h"
 
 #include <cmath>
@@ -107,6 +108,22 @@ static void apply_settings(GameState& state, const Settings& before) {
     keep_settings(state);
 }
 
+void use_packs(GameState& state, const std::vector<std::string>& paths) {
+    auto looks = open_packs(paths, *state.registry);
+    if (!looks) return say(state, looks.error().message);
+    if (const auto loaded = state.renderer->load_textures(*state.registry, looks->get()); !loaded) {
+        (void)state.renderer->load_textures(*state.registry, state.pack_looks.get());
+        return say(state, loaded.error().message);
+    }
+    state.pack_looks = *looks;
+    state.feeder->set_packs(*looks);
+    state.hotbar.icon_names.clear(); // drawn anew
+    state.settings.packs = state.packs = paths;
+    state.pack_page.changed = false;
+    keep_settings(state);
+    say(state, paths.empty() ? "no resource packs" : fmt::format("{} resource pack{} in use", paths.size(), paths.size() == 1 ? "" : "s"));
+}
+
 void draw_interface(GameState& state) {
     if (!state.hide_ui) {
         update_icons(state);
@@ -141,9 +158,10 @@ void draw_interface(GameState& state) {
     }
     if (state.paused) {
         const Settings before = state.settings;
-        const MenuAction action = draw_pause_menu(state.settings);
+        const MenuAction action = draw_pause_menu(state.settings, state.pack_page);
         if (!(before == state.settings)) apply_settings(state, before);
         if (action == MenuAction::resume) set_paused(state, false);
+        if (action == MenuAction::packs_changed) use_packs(state, packs_in_use(state.pack_page.list));
         if (action == MenuAction::quit) state.quit = true;
         bool usual_wanted = false;
         draw_keys(state.settings.controls, state.key_waiting, usual_wanted);

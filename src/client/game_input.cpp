@@ -19,6 +19,10 @@ static constexpr float kFreeSpeed = 12, kFreeFastSpeed = 60;
 
 void set_paused(GameState& state, bool paused) {
     state.paused = paused;
+    if (paused) {
+        const auto& folder = state.options.pack_folder;
+        state.pack_page = {folder.string(), list_packs(folder, state.packs), false};
+    }
     state.window->capture_mouse(!paused && !state.block_list_open && !state.arrow_look);
     state.held.clear();
     state.break_held = state.place_held = false;

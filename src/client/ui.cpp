@@ -134,7 +134,44 @@ static void draw_effects(render::Effects& effects) {
     ImGui::EndChild();
 }
 
-MenuAction draw_pause_menu(Settings& settings) {
+// Packs in use with the one that covers the others on top, then those that lie in the folder. True: use them now.
+static bool draw_packs(PackPage& page, float ui_scale) {
+    if (!ImGui::CollapsingHeader("Resource packs")) return false;
+    if (page.list.empty()) ImGui::TextDisabled("none: zips and folders of packs go to");
+    const std::size_t rows = std::min<std::size_t>(page.list.size(), 8);
+    if (rows > 0) ImGui::BeginChild("packs", {0, ImGui::GetFrameHeightWithSpacing() * float(rows)});
+    // One change a frame: the list is not walked while it changes.
+    std::size_t toggled = page.list.size(), moved = page.list.size();
+    bool up = false;
+    for (std::size_t i = 0; i < page.list.size(); ++i) {
+        const PackEntry& pack = page.list[i];
+        ImGui::PushID(int(i));
+        bool on = pack.on;
+        ImGui::BeginDisabled(!on || i == 0);
+        if (ImGui::ArrowButton("up", ImGuiDir_Up)) moved = i, up = true;
+        ImGui::EndDisabled();
+        ImGui::SameLine(0, 3 * ui_scale);
+        ImGui::BeginDisabled(!on || i + 1 == page.list.size() || !page.list[i + 1].on);
+        if (ImGui::ArrowButton("down", ImGuiDir_Down)) moved = i, up = false;
+        ImGui::EndDisabled();
+        ImGui::SameLine();
+        if (ImGui::Checkbox(pack.missing ? (pack.name + " (not there)").c_str() : pack.name.c_str(), &on)) toggled = i;
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", pack.path.c_str());
+        ImGui::PopID();
+    }
+    if (rows > 0) ImGui::EndChild();
+    if (toggled < page.list.size()) toggle_pack(page.list, toggled), page.changed = true;
+    if (moved < page.list.size()) move_pack(page.list, moved, up), page.changed = true;
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s", page.folder.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::BeginDisabled(!page.changed);
+    const bool use = ImGui::Button("Use these packs", {-1, 0});
+    ImGui::EndDisabled();
+    return use;
+}
+
+MenuAction draw_pause_menu(Settings& settings, PackPage& packs) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, size, IM_COL32(0, 0, 0, 110));
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -156,6 +193,7 @@ MenuAction draw_pause_menu(Settings& settings) {
     ImGui::Checkbox("Wait for the screen", &next.vsync);
     ImGui::Checkbox("Invert mouse", &next.invert_y);
     draw_effects(next.effects);
+    if (draw_packs(packs, settings.ui_scale)) action = MenuAction::packs_changed;
     ImGui::Separator();
     if (ImGui::Button("Save and quit", {-1, 0})) action = MenuAction::quit;
     ImGui::End();

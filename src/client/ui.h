@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/types.h"
+#include "client/pack_list.h"
 #include "client/settings.h"
 
 #include <optional>
@@ -18,7 +19,14 @@ struct HotbarView {
     float name_seconds = 0; // the selected block's name is shown while above 0
 };
 
-enum class MenuAction : u8 { none, resume, settings_changed, quit };
+enum class MenuAction : u8 { none, resume, settings_changed, packs_changed, quit };
+
+// The page of resource packs while the menu is open.
+struct PackPage {
+    std::string folder;          // where packs are looked for, told to the player
+    std::vector<PackEntry> list; // as the player has ordered them
+    bool changed = false;        // differs from what is in use
+};
 
 void draw_crosshair();
 void draw_hotbar(const HotbarView& hotbar, float ui_scale);
@@ -27,8 +35,8 @@ void draw_debug_text(const std::vector<std::string>& lines, bool right);
 void draw_notices(const std::vector<std::string>& lines);
 // A full-screen message while the world is loading; progress 0..1.
 void draw_loading(const std::string& text, float progress);
-// Changes `settings` in place; answers what the player wants.
-MenuAction draw_pause_menu(Settings& settings);
+// Changes `settings` and the page's list in place; answers what the player wants. packs_changed: use the list now.
+MenuAction draw_pause_menu(Settings& settings, PackPage& packs);
 // Part of the pause menu: which key does what. waiting: the action whose key the player is about to press.
 void draw_keys(const Bindings& controls, std::optional<Action>& waiting, bool& usual_wanted);
 // Block picker (E): answers the index chosen in `names`, or -1. `filter` keeps what was typed.
