@@ -41,9 +41,12 @@ void frame(bench::Context& context, u32 view_distance, bool memory) {
     const auto content = load_content(roots);
     if (!content) return context.skip(content.error().message);
     if (!content->terrain) return context.skip("the content describes no terrain");
-    const auto generator = TerrainGenerator::create(*content->terrain, 7);
-    if (!generator) return context.skip(generator.error().message);
-    const auto options = still_options(context, view_distance, spawn_point(**generator));
+    client::StillOptions options;
+    { // of the game there is one generator, the server's
+        const auto generator = TerrainGenerator::create(*content->terrain, 7);
+        if (!generator) return context.skip(generator.error().message);
+        options = still_options(context, view_distance, spawn_point(**generator));
+    }
     const auto still = client::Still::open(options, *content);
     if (!still) return context.skip(still.error().message);
     // The eye turns a little each frame, as a player's does: what is culled and sorted must be found anew.

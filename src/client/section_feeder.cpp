@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <iterator>
 #include <utility>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace vitrail::client {
 
@@ -16,6 +19,10 @@ static constexpr u32 kFewSections = 96;
 static constexpr u32 kInFlightLeast = 48, kInFlightMost = 512;
 static constexpr std::size_t kJobsBetweenClocks = 16;
 static constexpr double kBudgetMs = 3, kBudgetShare = 0.08, kBudgetMsMost = 20;
+
+// Bursts of land leave the heap with holes between what stays (messages, snapshots, meshes), a tenth of all memory: its
+// pages go back after so many sections, or fewer where nothing more is to do.
+static constexpr u64 kUploadsBeforeReturn = 2048, kUploadsBeforeRest = 256;
 
 double feed_budget_ms(double frame_seconds) {
     return std::clamp(frame_seconds * 1000 * kBudgetShare, kBudgetMs, kBudgetMsMost);
@@ -106,6 +113,16 @@ void SectionFeeder::update(replica::Replica& replica, BlockPos eye, double budge
     std::size_t done = 0;
     while (done < taken_.size() && (done == 0 || seconds_since(start) * 1e3 < budget_ms)) upload(taken_[done++]);
     taken_.erase(taken_.begin(), taken_.begin() + std::ptrdiff_t(done));
+    const u64 fresh = uploaded_ - uploaded_at_return_;
+    if (fresh >= kUploadsBeforeReturn || (fresh >= kUploadsBeforeRest && settled())) return_memory();
+}
+
+// A few milliseconds of a worker.
+void SectionFeeder::return_memory() {
+    uploaded_at_return_ = uploaded_;
+#ifdef __GLIBC__
+    pool_.submit([] { (void)malloc_trim(0); }, 0);
+#endif
 }
 
 void SectionFeeder::take_answers() {

@@ -82,6 +82,7 @@ private:
     void start_jobs(replica::Replica& replica, BlockPos eye, u64 now, double budget_ms);
     void submit(const replica::Replica& replica, ChunkPos at, u64 job, bool mesh, i64 priority);
     void upload(const Answer& answer);
+    void return_memory();
 
     render::Renderer& renderer_;
     ThreadPool& pool_;
@@ -95,6 +96,7 @@ private:
     DimensionId dimension_{};
     u32 waiting_ = 0, in_flight_ = 0, in_flight_most_;
     u64 meshed_ = 0, uploaded_ = 0, without_job_ = 0, jobs_ = 0;
+    u64 uploaded_at_return_ = 0;
     render::MeshScratch scratch_; // for sections without a job
     render::SectionMesh no_mesh_;
 };

@@ -56,7 +56,7 @@ static ViewUniforms view_uniforms(const scene::View& view, const scene::View* be
     u.fraction = with(view_from(corner_of(block_of(view.eye.at)), view.eye.at).v, kNearPlane);
     u.clip_plane = view.clip_plane;
     u.ray_right = with(right * (t * aspect), 2 * t / float(height));
-    u.ray_up = with(up * t, view.underwater ? 1.0f : 0.0f);
+    u.ray_up = with(up * t, !view.underwater ? 0.0f : mean(view.medium.glow) > 0 ? 2.0f : 1.0f);
     // A jittered picture shows at ndc what lies at ndc - shift.
     u.ray_forward = with(forward - right * (t * aspect * shift.x) - up * (t * shift.y), view.scale);
     const BlockPos eye = block_of(view.eye.at);

@@ -266,4 +266,38 @@ TEST_F(WaterSeams, FarWaterIsTheSame) {
     }
 }
 
+// An eye in lava sees its glow, the same to all sides however near the surface is, and what stands near through it by
+// exp(-k d).
+TEST_F(WaterSeams, LavaGlowsAllAround) {
+    ASSERT_TRUE(renderer->set_effects(clear_water()));
+    const Vec3 glow{0.9f, 0.35f, 0.1f};
+    std::vector<std::pair<u32, Quad>> solid{top(0, 1, 0, 16, 16, white, 0)};
+    solid.push_back({5, Quad::cube({0, 0, 7}, 16, 16, Face::south, 255, white, TintKind::none, 0)});
+    renderer->set_section({0, 0, 0}, {}, quads_of(QuadPass::opaque, solid));
+    const auto look = [&](float yaw, float pitch, float dense, float depth) {
+        auto frame = frame_of(eye_at(8.1, 9.2, 9), yaw, pitch, 17, 17);
+        frame.views[0].underwater = true;
+        frame.views[0].medium = {{dense, dense, dense}, {}, glow, depth, 1};
+        const auto pixels = color(frame);
+        const float* p = pixels.at(8, 8);
+        return Vec3{p[0], p[1], p[2]};
+    };
+    for (const float depth : {0.1f, 3.0f}) {
+        for (const float pitch : {-90.0f, -40.0f, 0.0f, 40.0f, 90.0f}) { // the sky, and the ground 7 blocks below
+            const Vec3 seen = look(0, pitch, 3, depth);
+            EXPECT_NEAR(seen.x, glow.x, 0.01f) << pitch << " at depth " << depth;
+            EXPECT_NEAR(seen.z, glow.z, 0.01f) << pitch << " at depth " << depth;
+        }
+        // A wall 1 block before the eye (which looks north), through lava of three densities: of what it sends the
+        // share that is left falls as it should, whatever that is.
+        const Vec3 thin = look(180, 0, 0.25f, depth), middle = look(180, 0, 1, depth), thick = look(180, 0, 2, depth);
+        const auto wall = [&](Vec3 seen, float dense) {
+            return (seen.z - glow.z * (1 - std::exp(-dense))) / std::exp(-dense);
+        };
+        ASSERT_GT(wall(thin, 0.25f), 0.02f);
+        EXPECT_NEAR(wall(middle, 1), wall(thin, 0.25f), 0.02f) << depth;
+        EXPECT_NEAR(wall(thick, 2), wall(thin, 0.25f), 0.03f) << depth;
+    }
+}
+
 } // namespace vitrail::render

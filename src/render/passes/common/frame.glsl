@@ -5,7 +5,7 @@ struct ViewData {
     vec4 fraction;    // xyz: the eye inside its block; w: near plane, blocks
     vec4 clip_plane;  // camera-relative
     vec4 ray_right;   // xyz: with ray_up and ray_forward the ray of a point of the screen, forward part 1;
-    vec4 ray_up;      // w of ray_right: blocks a pixel at distance 1; of ray_up: 1 where the eye is under water
+    vec4 ray_up;      // w of ray_right: blocks a pixel at distance 1; of ray_up: 1 where the eye is in a liquid, 2 in one that glows
     vec4 ray_forward; // w: scale of the view
     ivec4 eye_block;  // xyz: add a camera-relative place and fraction for a place in the world (modulo a power of two)
     vec4 medium;      // extinction of the liquid around the eye, a block (base e); w: blocks from the eye up to its surface

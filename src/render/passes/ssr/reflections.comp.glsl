@@ -53,7 +53,7 @@ void main() {
     const float straight = 0.04; // what is no metal
     float share = straight + (max(1.0 - roughness, straight) - straight) * g2 * g2 * graze;
     share *= 1.0 - smoothstep(0.7, 1.0, roughness / u_roughest);
-    share *= 1.0 - 0.7 * view.ray_up.w; // wet already: water bends light nearly as stone does
+    share *= 1.0 - 0.7 * min(view.ray_up.w, 1.0); // wet already: water bends light nearly as stone does
 
     vec4 light = texelFetch(t_light, pixel, 0);
     vec4 seen = march_reflection_rough(place + flat_normal * (0.004 + 0.0004 * away), direction, number,

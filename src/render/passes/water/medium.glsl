@@ -27,6 +27,8 @@ vec3 scattered_on_way(vec3 extinction, vec3 scattering, float path, float down) 
 vec3 through_medium(vec3 color, vec3 towards, float away, uint number) {
     ViewData view = views[number];
     if (view.ray_up.w == 0.0) return color;
+    // What glows does so alike everywhere and lets nothing through its skin: no surface ends it, no depth darkens it.
+    if (view.ray_up.w > 1.5) return mix(view.murk.rgb, color, exp(-view.medium.rgb * away));
     float path = towards.y > 0.0 ? min(away, view.medium.w / max(towards.y, 1e-4)) : away;
     float rate = 1.0 - kDownwards * towards.y;
     return color * exp(-view.medium.rgb * path) + view.murk.rgb * ((1.0 - exp(-view.medium.rgb * (rate * path))) / rate);
