@@ -165,6 +165,18 @@ TEST_F(WaterSeams, SwellTearsNothing) {
     EXPECT_EQ(cracks, 0u);
 }
 
+// From high above, sections that the eye is far beside of are cut like those it is above of; they stay where they are.
+TEST_F(WaterSeams, SeaFarBesideAHighEye) {
+    ASSERT_TRUE(renderer->set_effects(bent_water()));
+    renderer->set_background(true, {40, 40, 40});
+    const SectionMesh sea = quads_of(QuadPass::translucent, {top(0, 4, 0, 16, 16, water, kQuadLiquid)});
+    renderer->set_section({0, -19, 0}, {}, sea);
+    renderer->set_section({10, -10, 0}, {}, sea);
+    // East and down, at the middle of the latter: 160 blocks on, 163 down.
+    const auto pixels = color(frame_of(eye_at(8, 8.1, 8), -90, 45.5f, 65, 65));
+    EXPECT_LT(pixels.at(32, 32)[0], 4);
+}
+
 // Where quads meet, none is blended twice: a pane or a sea of many quads looks as one of few, without dotted lines
 // along the borders.
 TEST_F(WaterSeams, NothingIsBlendedTwice) {

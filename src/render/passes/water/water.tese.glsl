@@ -38,8 +38,10 @@ void main() {
     if (v_bob > 0.99) {
         // Where two quads meet both must find the same wave, bit for bit: cuts lie at whole blocks.
         vec2 corner = floor(v_world.xz + 0.5);
-        vec2 from_eye = corner - vec2(view.eye_block.xz & 255); // the world modulo 256
-        v_position.xz = from_eye - 256.0 * floor(from_eye * (1.0 / 256.0) + 0.5) - view.fraction.xz;
+        if (dot(v_position.xz, v_position.xz) < 64.0 * 64.0) { // beyond, nothing moves, and the world is told modulo 256
+            vec2 from_eye = corner - vec2(view.eye_block.xz & 255);
+            v_position.xz = from_eye - 256.0 * floor(from_eye * (1.0 / 256.0) + 0.5) - view.fraction.xz;
+        }
         float far = length(v_position.xz), away = length(v_position);
         float share = (1.0 - smoothstep(0.6 * kSwellEnd, kSwellEnd, far)) * smoothstep(0.3, 1.5, away);
         float rise = share > 0.0 ? share * wave_swell(corner, misc.x) : 0.0;
