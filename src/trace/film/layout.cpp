@@ -1,6 +1,7 @@
 #include "trace/film/layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -84,6 +85,26 @@ bool same_view(const Camera& a, const Camera& b) {
            a.forward == b.forward && a.width == b.width && a.height == b.height && a.medium == b.medium;
 }
 
+// pixel_of(before, direction_through(now)) with the divisions taken out, in double precision.
+void find_way(FilmFrame& f) {
+    const Camera &a = f.now, &b = f.before;
+    const double w = b.width, h = b.height;
+    const auto dot_of = [](Vec3 u, Vec3 v) {
+        return double(u.x) * double(v.x) + double(u.y) * double(v.y) + double(u.z) * double(v.z);
+    };
+    const auto seen = [&](Vec3 d) { // homogeneous pixel
+        const double z = dot_of(d, b.forward), r = dot_of(d, b.right) / dot_of(b.right, b.right),
+                     u = dot_of(d, b.up) / dot_of(b.up, b.up);
+        return std::array<double, 3>{(r + z) * 0.5 * w, (z - u) * 0.5 * h, z};
+    };
+    const auto forward = seen(a.forward), right = seen(a.right), up = seen(a.up), shift = seen(f.shift);
+    const auto vec = [](auto&& at) { return Vec3{float(at(0)), float(at(1)), float(at(2))}; };
+    f.way = vec([&](u32 k) { return forward[k] - right[k] + up[k]; });
+    f.way_x = vec([&](u32 k) { return right[k] * 2 / a.width; });
+    f.way_y = vec([&](u32 k) { return up[k] * -2 / a.height; });
+    f.way_shift = vec([&](u32 k) { return shift[k]; });
+}
+
 } // namespace
 
 u64 film_framed_floats(const FilmPlanes& p) {
@@ -116,6 +137,7 @@ FilmFrame next_film_frame(const FilmFrame& last, u32 frames, u32& samples, const
     f.now.jitter = {};
     f.before = frames ? last.now : now;
     f.shift = offset(f.before.eye, now.eye);
+    find_way(f);
     f.denoise = settings.denoise;
     f.half = settings.half && settings.denoise;
     const bool same =

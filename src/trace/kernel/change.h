@@ -8,8 +8,8 @@ namespace vitrail::trace {
 // Histories shorter than this have nothing to compare.
 inline constexpr float kWatched = 6;
 
-// Of a tile: sums over its pixels of what the short mean says more than the long one, of that difference's variance,
-// and of the brighter of the two.
+// Of a tile: sums over its pixels of what the short mean says more than the long one, of that difference's square, and
+// of the brighter of the two.
 VX_HD void watch_tile(const FilmPlanes& p, i32 tx, i32 ty) {
     Vec4 sum;
     for (i32 k = 0; k < i32(kTile * kTile); ++k) {
@@ -19,16 +19,16 @@ VX_HD void watch_tile(const FilmPlanes& p, i32 tx, i32 ty) {
         const Vec4 light = p.next.light[i], fast = p.next.fast[i];
         if (light.w < kWatched) continue;
         const float slow_l = luminance(light.x, light.y, light.z), fast_l = luminance(fast.x, fast.y, fast.z);
-        const float mean = p.next.air[i].w;
-        // A mean that takes 1 / n of each new value has a variance of 1 / (2 n - 1) of a sample's.
-        const float variance = larger(0, fast.w - mean * mean) / (2 * kFastLength - 1);
-        sum = plus(sum, {fast_l - slow_l, variance, larger(fast_l, slow_l), 1}, 1);
+        const float d = fast_l - slow_l;
+        sum = plus(sum, {d, d * d, larger(fast_l, slow_l), 1}, 1);
     }
     p.tiles[u32(ty) * p.tiles_wide + u32(tx)] = sum;
 }
 
-// The test, over 3x3 tiles: in standard errors. Spread spikes and filled gaps are shared by up to 9 pixels, so that
-// noise of neighbors is not independent: the variance of the sum is up to 9 times that of independent pixels.
+// The test, over 3x3 tiles: is the mean difference more than its scatter explains? In standard errors, of a ninth of
+// the pixels: spread spikes and filled gaps are shared by so many. A lone spike stays at 1, an even change has no
+// bound, one of half the area gives 4. The scatter over pixels serves better than the moments, which a change itself
+// blows up.
 VX_HD void test_tile(const FilmPlanes& p, i32 tx, i32 ty) {
     Vec4 sum;
     for (i32 k = 0; k < 9; ++k) {
@@ -36,10 +36,11 @@ VX_HD void test_tile(const FilmPlanes& p, i32 tx, i32 ty) {
         if (x >= 0 && y >= 0 && x < i32(p.tiles_wide) && y < i32(p.tiles_high))
             sum = plus(sum, p.tiles[u32(y) * p.tiles_wide + u32(x)], 1);
     }
-    const float difference = std::fabs(sum.x), error = std::sqrt(9 * sum.y) + 1e-6f * sum.z + 1e-20f;
-    const float sure = smoothstep(4, 7, difference / error);
-    const float matters = smoothstep(0.03f, 0.1f, difference / (sum.z + 1e-20f));
-    p.change[u32(ty) * p.tiles_wide + u32(tx)] = sum.w >= 4 ? sure * matters : 0.0f;
+    const float scale = 1 / larger(1, sum.w), mean = std::fabs(sum.x) * scale;
+    const float scatter = std::sqrt(larger(0, sum.y * scale - mean * mean));
+    const float sure = smoothstep(2.2f, 3.6f, mean * std::sqrt(sum.w / 9) / (scatter + 1e-6f * mean + 1e-20f));
+    const float matters = smoothstep(0.01f, 0.05f, mean / (sum.z * scale + 1e-20f));
+    p.change[u32(ty) * p.tiles_wide + u32(tx)] = sum.w >= 9 ? sure * matters : 0.0f;
 }
 
 VX_HD float change_at(const FilmPlanes& p, i32 x, i32 y) {
@@ -97,12 +98,12 @@ VX_HD void respond_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
             if (fresh.r[j] >= 0) {
                 const Vec4 now{fresh.r[j], fresh.g[j], fresh.b[j], 0};
                 const float w = fast.w;
-                fast = toward(fast, now, 0.25f * change);
+                fast = toward(fast, now, 0.4f * change);
                 fast.w = w;
             }
             const float length = light.w, l = luminance(fast.x, fast.y, fast.z);
             light = toward(light, fast, change);
-            light.w = lerp(length, smaller(length, kFastLength), change);
+            light.w = lerp(length, smaller(length, 2.5f), change);
             fast.w = lerp(fast.w, l * l + around, change);
             air.w = lerp(air.w, l, change);
             p.next.light[i] = light;
@@ -119,7 +120,7 @@ VX_HD void respond_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
     // Noise of neighbors that share spikes is not independent, so the filter's levels lower it less than they think;
     // and of short histories the variance is little known.
     const float unsure = (f.spike > 0 ? 2.0f : 1.0f) + 8 / (larger(1, light.w) * larger(1, light.w));
-    p.odd.v[j] = soft * unsure * one / larger(1, light.w);
+    p.odd.v[j] = surface && light.w <= 0 ? kMissing : soft * unsure * one / larger(1, light.w);
     p.air_odd.r[j] = air.x;
     p.air_odd.g[j] = air.y;
     p.air_odd.b[j] = air.z;

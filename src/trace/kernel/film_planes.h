@@ -32,7 +32,7 @@ struct Framed3 {
 };
 struct Framed4 {
     float *r = nullptr, *g = nullptr, *b = nullptr;
-    float* v = nullptr; // variance of the luminance
+    float* v = nullptr; // variance of the luminance; kMissing: no light known
 };
 
 // What is kept of a frame's first surfaces.
@@ -75,14 +75,17 @@ struct FilmPlanes {
     float* change = nullptr; // of a tile: 0 nothing changed .. 1 light is another than before
     Framed4 even, odd;       // light between filter levels, in turns; `even` before them: samples filled in (half)
     Framed3 air_even, air_odd;
-    Vec4* merged = nullptr; // level, before antialiasing: radiance; inverse depth
-    Vec4* color = nullptr;  // level, the picture: linear radiance; distance
+    Vec4* merged = nullptr; // level, before antialiasing: radiance squeezed (resolve.h); inverse depth
+    Vec4* color = nullptr;  // level, the picture: linear radiance; distance (before antialiasing: inverse depth)
 };
 
 // What is the same for all pixels of a frame.
 struct FilmFrame {
     Camera now, before; // `now.jitter` is where this frame's rays went through their pixels
     Vec3 shift;         // now.eye seen from before.eye, blocks
+    // From a place of this picture to the last one's: for pixel coordinates x, y and inverse depth d of a surface,
+    // w = way + way_x x + way_y y + way_shift d: it was at w.x / w.z, w.y / w.z, its inverse depth was d / w.z.
+    Vec3 way, way_x, way_y, way_shift;
     bool denoise = true;
     bool history = false;       // `past` and `before` hold something
     bool rest = false;          // nothing moved since the frame before
@@ -102,6 +105,39 @@ VX_HD i32 framed_at(const FilmPlanes& p, i32 x, i32 y) {
 VX_HD u32 level_at(const FilmPlanes& p, i32 x, i32 y) {
     return u32(y) * p.width + u32(x);
 }
+// Vec4 as one register.
+#if defined(__CUDACC__)
+VX_HD Vec4 plus(Vec4 a, Vec4 b, float w) {
+    return {a.x + b.x * w, a.y + b.y * w, a.z + b.z * w, a.w + b.w * w};
+}
+VX_HD Vec4 scaled(Vec4 a, float s) {
+    return {a.x * s, a.y * s, a.z * s, a.w * s};
+}
+VX_HD Vec4 times(Vec4 a, Vec4 b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w};
+}
+VX_HD Vec4 toward(Vec4 a, Vec4 b, float t) {
+    return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t), lerp(a.w, b.w, t)};
+}
+#else
+using Quad = float __attribute__((vector_size(16)));
+VX_HD Quad quad(Vec4 a) {
+    return __builtin_bit_cast(Quad, a);
+}
+VX_HD Vec4 plus(Vec4 a, Vec4 b, float w) {
+    return __builtin_bit_cast(Vec4, quad(a) + quad(b) * w);
+}
+VX_HD Vec4 scaled(Vec4 a, float s) {
+    return __builtin_bit_cast(Vec4, quad(a) * s);
+}
+VX_HD Vec4 times(Vec4 a, Vec4 b) {
+    return __builtin_bit_cast(Vec4, quad(a) * quad(b));
+}
+VX_HD Vec4 toward(Vec4 a, Vec4 b, float t) {
+    return __builtin_bit_cast(Vec4, quad(a) + (quad(b) - quad(a)) * t);
+}
+#endif
+
 VX_HD float luminance(float r, float g, float b) { // of linear sRGB (Rec. 709)
     return 0.2126f * r + 0.7152f * g + 0.0722f * b;
 }

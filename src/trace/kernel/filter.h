@@ -162,13 +162,14 @@ VX_HD float spline_weight(i32 d) {
     return d == 0 ? 0.375f : (d == 1 || d == -1) ? 0.25f : 0.0625f;
 }
 
-// One level of the light's filter, 5x5 taps `step` apart. Variance goes along with the square of the weights.
+// One level of the light's filter, 5x5 taps `step` apart. Variance goes along with the square of the weights;
+// kMissing there says that no light is known: such a pixel takes and does not give.
 VX_HD void filter_light(const FilmPlanes& p, const Framed4& from, const Framed4& to, i32 step, i32 x, i32 y) {
     const i32 j = framed_at(p, x, y);
     const Site own = site_at(p.now, j);
     const float own_scale = depth_scale(own.depth), sx = p.slope_x[j] * float(step), sy = p.slope_y[j] * float(step);
     const float r0 = from.r[j], g0 = from.g[j], b0 = from.b[j], v0 = from.v[j], l0 = luminance(r0, g0, b0);
-    const float center = 0.375f * 0.375f;
+    const float center = v0 >= 0 ? 0.375f * 0.375f : 0.0f, own_variance = v0 >= 0 ? v0 : 1e20f;
     float weight = center, r = center * r0, g = center * g0, b = center * b0, v = center * center * v0;
     VX_UNROLL
     for (i32 dy = -2; dy <= 2; ++dy) {
@@ -180,9 +181,10 @@ VX_HD void filter_light(const FilmPlanes& p, const Framed4& from, const Framed4&
             const float qr = from.r[q], qg = from.g[q], qb = from.b[q], qv = from.v[q];
             const float off = std::fabs(s.depth - own.depth - sx * float(dx) - sy * float(dy)) * own_scale;
             const float unlike = std::fabs(luminance(qr, qg, qb) - l0);
-            const float light = unlike * unlike / (9 * (v0 + qv) + 1e-12f);
+            const float light = unlike * unlike / (9 * (own_variance + qv) + 1e-12f);
             const float n = power_32(own.nx * s.nx + own.ny * s.ny + own.nz * s.nz);
-            const float w = spline_weight(dx) * spline_weight(dy) * n * falloff(off + light);
+            const float like = spline_weight(dx) * spline_weight(dy) * n * falloff(off + light);
+            const float w = qv >= 0 ? like : 0.0f;
             weight += w;
             r += w * qr;
             g += w * qg;
@@ -190,11 +192,12 @@ VX_HD void filter_light(const FilmPlanes& p, const Framed4& from, const Framed4&
             v += w * w * qv;
         }
     }
-    const float scale = 1.0f / weight;
+    const float scale = 1.0f / (weight + 1e-20f);
     to.r[j] = r * scale;
     to.g[j] = g * scale;
     to.b[j] = b * scale;
-    to.v[j] = v * scale * scale;
+    const float variance = v * scale * scale;
+    to.v[j] = weight > 1e-9f ? variance : kMissing;
 }
 
 // One level of the air's: 3x3 taps, which mind only large steps of depth.

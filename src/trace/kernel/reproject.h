@@ -17,21 +17,18 @@ struct Earlier {
 };
 VX_HD Earlier earlier_place(const FilmFrame& f, float x, float y, float inverse_depth) {
     const float px = x + 0.5f + f.now.jitter.x, py = y + 0.5f + f.now.jitter.y;
-    const float u = 2 * px / float(f.now.width) - 1, v = 1 - 2 * py / float(f.now.height);
-    const Vec3 d = f.now.forward + f.now.right * u + f.now.up * v;
-    const bool sky = inverse_depth <= 0;
     // Scaled by the inverse depth, so that the sky lies at infinity.
-    const Vec3 to = sky ? d : d + f.shift * inverse_depth;
-    const Vec3 q = pixel_of(f.before, to);
+    const Vec3 q = f.way + f.way_x * px + f.way_y * py + f.way_shift * larger(0, inverse_depth);
     Earlier e;
     if (q.z <= 1e-4f) return e;
     // The pixel's middle moves as the place that its ray met does: so nothing is resampled while the view rests.
-    e.x = x + (q.x - px);
-    e.y = y + (q.y - py);
+    const float z = 1 / q.z;
+    e.x = x + (q.x * z - px);
+    e.y = y + (q.y * z - py);
     const float rx = std::floor(e.x + 0.5f), ry = std::floor(e.y + 0.5f);
     if (std::fabs(e.x - rx) < 2e-3f) e.x = rx;
     if (std::fabs(e.y - ry) < 2e-3f) e.y = ry;
-    e.depth = sky ? 0 : inverse_depth / q.z;
+    e.depth = larger(0, inverse_depth) * z;
     return e;
 }
 
@@ -58,22 +55,12 @@ struct Mix {
     Vec4 light, fast, air;
     float weight = 0;
 };
-VX_HD Vec4 plus(Vec4 a, Vec4 b, float w) {
-    return {a.x + b.x * w, a.y + b.y * w, a.z + b.z * w, a.w + b.w * w};
-}
 VX_HD void mix_in(Mix& m, const FilmHistory& h, u32 i, float w) {
     m.light = plus(m.light, h.light[i], w);
     m.fast = plus(m.fast, h.fast[i], w);
     m.air = plus(m.air, h.air[i], w);
     m.weight += w;
 }
-VX_HD Vec4 scaled(Vec4 a, float s) {
-    return {a.x * s, a.y * s, a.z * s, a.w * s};
-}
-VX_HD Vec4 toward(Vec4 a, Vec4 b, float t) {
-    return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t), lerp(a.w, b.w, t)};
-}
-
 // The mean of the frame before around the place; weight 0: it was not seen.
 VX_HD Mix look_back(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) {
     Mix m;

@@ -1,8 +1,8 @@
 // The film's last stages: light on albedo, antialiasing in time, the plain mean. Kernel-safe.
 #pragma once
 
+#include "trace/kernel/change.h"
 #include "trace/kernel/film.h"
-#include "trace/kernel/reproject.h"
 
 namespace vitrail::trace {
 
@@ -20,25 +20,6 @@ VX_HD Vec4 radiance_at(const FilmPlanes& p, const Framed4& light, const Framed3&
             p.now.inverse_depth[j]};
 }
 
-// Light, air: as the filters left them. A pixel whose samples were all dropped shows what its neighbors do.
-VX_HD void merge_pixel(const FilmPlanes& p, const Framed4& light, const Framed3& air, i32 x, i32 y) {
-    const u32 i = level_at(p, x, y);
-    if (p.base[i].x >= 0) {
-        p.merged[i] = radiance_at(p, light, air, x, y);
-        return;
-    }
-    Vec4 sum;
-    float count = 0;
-    for (i32 k = 0; k < 9; ++k) {
-        const i32 qx = x + k % 3 - 1, qy = y + k / 3 - 1;
-        if (qx < 0 || qy < 0 || qx >= i32(p.width) || qy >= i32(p.height) || p.base[level_at(p, qx, qy)].x < 0)
-            continue;
-        sum = plus(sum, radiance_at(p, light, air, qx, qy), 1);
-        count += 1;
-    }
-    p.merged[i] = scaled(sum, 1 / larger(1, count));
-}
-
 // Light squeezed to 0..1, so that one bright pixel does not rule its neighbors (Karis, "High-Quality Temporal
 // Supersampling", 2014), as luma and two differences (YCoCg: edges there lie along the axes).
 VX_HD Vec3 squeezed(Vec4 c) {
@@ -46,6 +27,32 @@ VX_HD Vec3 squeezed(Vec4 c) {
     const float r = c.x * s, g = c.y * s, b = c.z * s;
     return {0.25f * r + 0.5f * g + 0.25f * b, 0.5f * r - 0.5f * b, -0.25f * r + 0.5f * g - 0.25f * b};
 }
+VX_HD void put_merged(const FilmPlanes& p, u32 i, Vec4 c) {
+    const Vec3 s = squeezed(c);
+    p.color[i] = c;
+    p.merged[i] = {s.x, s.y, s.z, c.w};
+}
+
+// Light, air: as the filters left them. A pixel without any shows what its neighbors do.
+VX_HD void merge_pixel(const FilmPlanes& p, const Framed4& light, const Framed3& air, i32 x, i32 y) {
+    const u32 i = level_at(p, x, y);
+    if (p.base[i].x >= 0 && light.v[framed_at(p, x, y)] >= 0) {
+        put_merged(p, i, radiance_at(p, light, air, x, y));
+        return;
+    }
+    Vec4 sum;
+    float count = 0;
+    for (i32 k = 0; k < 9; ++k) {
+        const i32 qx = x + k % 3 - 1, qy = y + k / 3 - 1;
+        if (qx < 0 || qy < 0 || qx >= i32(p.width) || qy >= i32(p.height) || p.base[level_at(p, qx, qy)].x < 0 ||
+            light.v[framed_at(p, qx, qy)] < 0)
+            continue;
+        sum = plus(sum, radiance_at(p, light, air, qx, qy), 1);
+        count += 1;
+    }
+    put_merged(p, i, scaled(sum, 1 / larger(1, count)));
+}
+
 VX_HD Vec3 unsqueezed(Vec3 c) {
     const float t = c.x - c.z;
     const Vec3 rgb{larger(0, t + c.y), larger(0, c.x + c.z), larger(0, t - c.y)};
@@ -69,10 +76,18 @@ VX_HD Vec4 sharp_lookup(const Vec4* picture, u32 width, u32 height, float x, flo
     Vec4 sum;
     for (i32 dy = 0; dy < 4; ++dy) {
         const i32 qy = y0 + dy - 1, cy = qy < 0 ? 0 : qy >= i32(height) ? i32(height) - 1 : qy;
-        for (i32 dx = 0; dx < 4; ++dx) {
-            const i32 qx = x0 + dx - 1, cx = qx < 0 ? 0 : qx >= i32(width) ? i32(width) - 1 : qx;
-            sum = plus(sum, picture[u32(cy) * width + u32(cx)], wx[dx] * wy[dy]);
+        const Vec4* row = picture + u64(u32(cy)) * width;
+        Vec4 across;
+        if (x0 >= 1 && x0 + 2 < i32(width)) {
+            const Vec4* at = row + (x0 - 1);
+            across = plus(plus(plus(scaled(at[0], wx[0]), at[1], wx[1]), at[2], wx[2]), at[3], wx[3]);
+        } else {
+            for (i32 dx = 0; dx < 4; ++dx) {
+                const i32 qx = x0 + dx - 1, cx = qx < 0 ? 0 : qx >= i32(width) ? i32(width) - 1 : qx;
+                across = plus(across, row[cx], wx[dx]);
+            }
         }
+        sum = plus(sum, across, wy[dy]);
     }
     return {larger(0, sum.x), larger(0, sum.y), larger(0, sum.z), sum.w};
 }
@@ -80,21 +95,23 @@ VX_HD Vec4 sharp_lookup(const Vec4* picture, u32 width, u32 height, float x, flo
 // Antialiasing in time, and the plain mean as it becomes better than the filtered picture.
 VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) {
     const u32 i = level_at(p, x, y);
-    const Vec4 now = p.merged[i];
-    const Vec3 own = squeezed(now);
-    Vec3 sum = own, squares = own * own;
-    float count = 1, nearest = now.w;
+    const Vec4 now = p.color[i], own = p.merged[i];
+    Vec4 sum, squares;
+    const i32 left = x > 0 ? -1 : 0, right = x + 1 < i32(p.width) ? 1 : 0, up = y > 0 ? -1 : 0,
+              down = y + 1 < i32(p.height) ? 1 : 0;
+    float nearest = own.w;
     i32 nx = x, ny = y;
-    for (i32 k = 0; k < 9; ++k) {
-        const i32 qx = x + k % 3 - 1, qy = y + k / 3 - 1;
-        if (k == 4 || qx < 0 || qy < 0 || qx >= i32(p.width) || qy >= i32(p.height)) continue;
-        const Vec4 q = p.merged[level_at(p, qx, qy)];
-        const Vec3 c = squeezed(q);
-        sum += c;
-        squares += c * c;
-        count += 1;
-        if (q.w > nearest * 1.02f) nearest = q.w, nx = qx, ny = qy; // silhouettes move with what is in front
+    for (i32 dy = up; dy <= down; ++dy) {
+        const Vec4* row = p.merged + i64(i) + i64(dy) * p.width;
+        for (i32 dx = left; dx <= right; ++dx) {
+            const Vec4 c = row[dx];
+            sum = plus(sum, c, 1);
+            squares = plus(squares, times(c, c), 1);
+            if (c.w > nearest * 1.02f)
+                nearest = c.w, nx = x + dx, ny = y + dy; // silhouettes move with what is in front
+        }
     }
+    const float count = float((right - left + 1) * (down - up + 1));
     Vec4 out = now;
     const Earlier e = f.history ? earlier_place(f, float(nx), float(ny), nearest) : Earlier{};
     const float ex = e.x + float(x - nx), ey = e.y + float(y - ny);
@@ -103,9 +120,9 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
         Vec4 past =
             whole ? p.past.color[level_at(p, i32(ex), i32(ey))] : sharp_lookup(p.past.color, p.width, p.height, ex, ey);
         // Held to what the neighborhood's colors allow (Salvi 2016), wider the longer the view rests.
-        const float scale = 1 / count, wide = 1.25f + 0.25f * smaller(float(f.rested), 1e4f);
-        const Vec3 mean = sum * scale;
-        const Vec3 v = squares * scale - mean * mean;
+        const float scale = 1 / count, calm = larger(0, float(f.rested) - 20), wide = 1.25f + 0.25f * calm;
+        const Vec3 mean{sum.x * scale, sum.y * scale, sum.z * scale};
+        const Vec3 v = Vec3{squares.x, squares.y, squares.z} * scale - mean * mean;
         const Vec3 d{wide * std::sqrt(larger(0, v.x)) + 1e-5f, wide * std::sqrt(larger(0, v.y)) + 1e-5f,
                      wide * std::sqrt(larger(0, v.z)) + 1e-5f};
         const Vec3 from = squeezed(past) - mean;
@@ -114,7 +131,8 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
             const Vec3 held = unsqueezed(mean + from * (1 / over));
             past = {held.x, held.y, held.z, 0};
         }
-        out = toward(past, now, f.rest ? 1 / smaller(float(f.rested) + 10, 512) : 0.1f);
+        const float part = 1 / clamp(calm, 10, 512);
+        out = toward(past, now, lerp(part, larger(part, 0.4f), change_at(p, x, y)));
     }
     const float distance = p.albedo[i].w;
     out.w = distance;

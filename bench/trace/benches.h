@@ -1,0 +1,10 @@
+// Benches of this folder, a file each; trace_bench.cpp registers them all.
+#pragma once
+
+#include "bench/harness.h"
+
+namespace vitrail {
+
+void register_denoise_benches(bench::Suite& suite);
+
+} // namespace vitrail

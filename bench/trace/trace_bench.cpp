@@ -1,0 +1,6 @@
+#include "bench/trace/benches.h"
+
+void register_trace_benches(vitrail::bench::Suite& suite);
+void register_trace_benches(vitrail::bench::Suite& suite) {
+    vitrail::register_denoise_benches(suite);
+}
