@@ -17,7 +17,7 @@ namespace vitrail::trace {
 // How much of a cell a ray has behind it, when it goes on after something that lets it pass.
 struct CellProgress {
     u32 parts = 0;       // bits: kEntrySheet, kBorder, kInside, kExitSheet
-    float inside_t = -1; // the last thing met inside; of equal ones the last quad
+    float inside_t = 0;  // the last thing met inside; of equal ones the last quad. Nothing lies behind a ray's start
     u32 inside_quad = 0;
     static constexpr u32 kEntrySheet = 1, kBorder = 2, kInside = 4, kExitSheet = 8;
 };

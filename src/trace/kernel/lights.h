@@ -173,6 +173,7 @@ VX_HD bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float choos
     out.dir = way * (1 / out.distance);
     const float cosine = std::fabs(dot(out.dir, facing));
     if (!(cosine > 1e-6f)) return false;
+    if (out.hit.quad == kLiquidSurface && dot(out.dir, facing) > 0) return false; // from below
     out.hit.t = out.distance;
     out.pdf = chance * (weight / sum) * (even > 0 ? even : d2 / (cosine * area));
     return true;
@@ -180,7 +181,7 @@ VX_HD bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float choos
 
 // Density of directions with which sample_emitter finds this hit from `at`. facing: geometric normal there.
 VX_HD float emitter_pdf(const SceneView& s, Place at, Vec3 normal, Vec3 dir, const Hit& hit, Vec3 facing) {
-    if (hit.leaving || (hit.kind != HitKind::cube && hit.kind != HitKind::quad)) return 0;
+    if (hit.kind != HitKind::cube && hit.kind != HitKind::quad) return 0;
     const u32 emitter = find_emitter(s.lights, hit.cell);
     if (emitter == kNoEmitter || s.lights.emitters[emitter].state != hit.state) return 0;
     const EmitterView v = view_of_emitter(s, emitter, at, normal);
@@ -188,6 +189,7 @@ VX_HD float emitter_pdf(const SceneView& s, Place at, Vec3 normal, Vec3 dir, con
     float area = 1;
     if (hit.kind == HitKind::quad) {
         if (hit.quad == kLiquidSurface) {
+            if (hit.leaving) return 0;
             piece = 3;
             area = 1 / (facing.y > 0.01f ? facing.y : 0.01f);
         } else {
