@@ -1,15 +1,44 @@
-// Light from beyond the land: the dome, the ground below the horizon, sun or moon. Kernel-safe.
+// Light from beyond the land. Two ways to look at the same sky: sky_seen() is the picture that the raster renderer
+// draws, for the eye and for mirrors; sky_light() is what lights things, with the disc of sun or moon apart
+// (sample_sun), so that none is counted twice. A path that met anything but mirrors takes sky_light, and sun_radiance
+// by its share in multiple importance sampling. Kernel-safe.
 #pragma once
 
 #include "trace/kernel/microfacet.h"
+#include "trace/kernel/sky_clouds.h"
+#include "trace/kernel/sky_discs.h"
+#include "trace/kernel/sky_stars.h"
 #include "trace/kernel/sky_view.h"
 
 namespace vitrail::trace {
 
+VX_HD Vec3 sky_dome(const SkyView& sky, Vec3 dir) {
+    return scene::sky_table_at(*sky.dome, scene::sky_table_place(dir, sky.sun_azimuth));
+}
+
 // What lights things: the dome, and below the horizon the land; without the disc, which sample_sun() knows.
 VX_HD Vec3 sky_light(const SkyView& sky, Vec3 dir) {
     if (!sky.open || dir.y < 0) return sky.ground;
-    return scene::sky_table_at(*sky.dome, scene::sky_table_place(dir, sky.sun_azimuth));
+    return sky_dome(sky, dir);
+}
+
+// Dome, stars, moon, sun, clouds, from far to near, without the mist before them (kernel/air.h). edge: radians of a
+// pixel; dither: 0..1, any number: hides the steps of the clouds' march.
+VX_HD Vec3 sky_seen(const SkyView& sky, Vec3 dir, float edge, float dither = 0.5f) {
+    if (!sky.open) return sky.ground;
+    const float above = clamp(dir.y / edge + 0.5f, 0.0f, 1.0f); // the horizon hides what has set
+    Vec3 color = lerp(sky_dome(sky, dir), sky.below, smoothstep(-0.02f, -0.45f, dir.y) * 0.8f);
+    if (above > 0) {
+        if (sky.stars > 0 || sky.moon_direction.y > -0.15f) {
+            const MoonSeen moon = moon_seen(sky, dir, edge);
+            if (sky.stars > 0 && sky.star_field && moon.cover < 1)
+                color += stars_seen(sky, dir, edge) * (sky.stars * (1 - moon.cover));
+            color += moon.light * above;
+        }
+        color += sun_seen(sky, dir, edge) * above;
+    }
+    const CloudsSeen clouds = clouds_seen(sky, dir, edge, dither);
+    return color * clouds.through + clouds.light;
 }
 
 // The disc of sun or moon, even all over: as bright as needed for sun_light on what faces it.

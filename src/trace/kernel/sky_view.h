@@ -2,6 +2,7 @@
 // memory. Kernel-safe.
 #pragma once
 
+#include "scene/cloud_noise.h"
 #include "scene/sky_table.h"
 #include "trace/kernel/ray.h"
 
@@ -24,9 +25,11 @@ struct SkyView {
     i32 sea_level = 63;
     float view_distance = 192; // blocks: land beyond fades into the sky's color
     const scene::SkyTable* dome = nullptr;
-    const float* cloud_noise =
-        nullptr;       // tiling square of two channels, 256 wide, as the raster's cloud texture; or null
-    float seconds = 0; // clouds drift
+    const u8* cloud_noise = nullptr;       // scene/cloud_noise.h; null: no clouds, no milky way, an even moon
+    bool clouds = true, star_field = true; // wanted
+    Vec2 cloud_place;        // where the eye stands in the clouds' noise: blocks modulo 4096, wind taken in
+    float cloud_above = 456; // blocks from the eye up to the clouds
+    float seconds = 0;       // stars twinkle, clouds change
 };
 
 } // namespace vitrail::trace

@@ -31,12 +31,13 @@ float cloud_phase(float cosine) {
 }
 
 // rgb: light of the clouds in a direction; a: share of what lies behind that is seen through them.
-vec4 clouds_at(vec3 d, sampler2D noise, float dither) {
+// edge: radians of a pixel; dither: 0..1, where in its stretch a step looks.
+vec4 clouds_at(vec3 d, sampler2D noise, float edge, float dither) {
     if (d.y < 0.005) return vec4(0.0, 0.0, 0.0, 1.0);
     float above = max(kCloudBase - float(views[0].eye_block.y), 60.0);
     float near = way_to_shell(d.y, above);
     vec2 origin = cloud_origin();
-    float lod = max(log2(near * views[0].ray_right.w / max(d.y, 0.08) * 256.0 * kCoarse), 0.0);
+    float lod = max(log2(near * edge / max(d.y, 0.08) * 256.0 * kCoarse), 0.0);
     float haze = exp(-near * near * (1.0 / (3600.0 * 3600.0))) * smoothstep(0.005, 0.06, d.y);
     vec3 towards_light = cloud_direction.xyz;
     float phase = cloud_phase(dot(d, towards_light));

@@ -45,7 +45,7 @@ void shade_pixel(ivec2 pixel) {
 #if CLOUDS > 0
     // Interleaved gradient noise (Jimenez 2014) hides the steps of the march.
     float dither = fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
-    vec4 clouds = clouds_at(d, t_clouds, dither);
+    vec4 clouds = clouds_at(d, t_clouds, edge, dither);
     color = color * clouds.a + clouds.rgb;
 #endif
     // As land at the edge of view: no seam.

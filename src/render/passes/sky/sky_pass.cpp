@@ -1,6 +1,6 @@
 #include "render/passes/sky/sky_pass.h"
 
-#include "render/passes/sky/cloud_texture.h"
+#include "scene/cloud_noise.h"
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -12,6 +12,23 @@ using scene::SkyTable;
 
 // The same numbers stand in sky.screen.glsl.
 enum Place : GLint { sun_disc = 0, moon_disc = 1, sky_pole = 2, cloud_light = 3, cloud_direction = 4 };
+
+static gfx::Texture make_cloud_texture() {
+    using scene::CloudNoise;
+    gfx::Texture texture = gfx::make_texture_2d(GL_RG8, CloudNoise::kSide, CloudNoise::kSide, CloudNoise::kLevels);
+    const std::vector<u8>& noise = scene::cloud_noise();
+    GLint alignment = 4;
+    glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1); // the smallest levels
+    for (u32 i = 0; i < CloudNoise::kLevels; ++i) {
+        const GLsizei side = GLsizei(CloudNoise::kSide >> i);
+        glTextureSubImage2D(texture.name(), GLint(i), 0, 0, side, side, GL_RG, GL_UNSIGNED_BYTE,
+                            &noise[std::size_t(CloudNoise::level(i)) * 2]);
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);
+    gfx::set_filter(texture, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);
+    return texture;
+}
 
 Result<> SkyPass::build(const BuildContext& context) {
     std::vector<std::string> defines{fmt::format("CLOUDS {}", context.effects.sky.clouds)};

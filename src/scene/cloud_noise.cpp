@@ -1,17 +1,15 @@
-#include "render/passes/sky/cloud_texture.h"
+#include "scene/cloud_noise.h"
 
 #include "base/rng.h"
 
 #include <algorithm>
 #include <cmath>
-#include <epoxy/gl.h>
-#include <vector>
 
-namespace vitrail::render {
+namespace vitrail::scene {
 
 namespace {
 
-constexpr u32 kSide = 256;
+constexpr u32 kSide = CloudNoise::kSide;
 enum Purpose : u32 { gradient = 100, point_x = 200, point_y = 300 };
 
 float at_lattice(u32 purpose, i32 x, i32 y) {
@@ -51,10 +49,8 @@ u8 byte_of(float v) {
     return u8(std::clamp(v * 255 + 0.5f, 0.0f, 255.0f));
 }
 
-} // namespace
-
-gfx::Texture make_cloud_texture() {
-    std::vector<u8> pixels(std::size_t(kSide) * kSide * 2);
+std::vector<u8> make() {
+    std::vector<u8> pixels(std::size_t(CloudNoise::kTexels) * 2);
     for (u32 y = 0; y < kSide; ++y)
         for (u32 x = 0; x < kSide; ++x) {
             float wide = 0, heap = 0, amount = 1;
@@ -71,11 +67,25 @@ gfx::Texture make_cloud_texture() {
             p[0] = byte_of(0.5f + 0.62f * wide);
             p[1] = byte_of(heap);
         }
-    gfx::Texture texture = gfx::make_texture_2d(GL_RG8, kSide, kSide, 9);
-    glTextureSubImage2D(texture.name(), 0, 0, 0, kSide, kSide, GL_RG, GL_UNSIGNED_BYTE, pixels.data());
-    glGenerateTextureMipmap(texture.name());
-    gfx::set_filter(texture, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT);
-    return texture;
+    for (u32 level = 1; level < CloudNoise::kLevels; ++level) {
+        const u32 side = kSide >> level;
+        const u8* from = &pixels[std::size_t(CloudNoise::level(level - 1)) * 2];
+        u8* to = &pixels[std::size_t(CloudNoise::level(level)) * 2];
+        for (u32 y = 0; y < side; ++y)
+            for (u32 i = 0; i < side * 2; ++i) {
+                const u32 x = i / 2 * 4 + i % 2, upper = y * 2 * side * 4, lower = upper + side * 4;
+                to[y * side * 2 + i] =
+                    u8((from[upper + x] + from[upper + x + 2] + from[lower + x] + from[lower + x + 2] + 2) / 4);
+            }
+    }
+    return pixels;
 }
 
-} // namespace vitrail::render
+} // namespace
+
+const std::vector<u8>& cloud_noise() {
+    static const std::vector<u8> made = make();
+    return made;
+}
+
+} // namespace vitrail::scene
