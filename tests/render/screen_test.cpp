@@ -9,7 +9,8 @@ namespace vitrail::render {
 class ScreenWays : public RenderTest {
 protected:
     // Several frames of a turning eye, the last one as it is shown.
-    static Image last_of(ScreenWork way, const Effects& effects, float time, bool views) {
+    static Image last_of(ScreenWork way, const Effects& effects, float time, bool views,
+                         std::vector<TargetPixels>* surfaces = nullptr) {
         bench::SampleScene scene(2, true);
         scene.registry.content_roots = {test_content()};
         auto made = Renderer::create({.effects = effects, .quad_bytes_start = 16384, .screen = way});
@@ -33,6 +34,8 @@ protected:
             image = draw(renderer, frame);
         }
         EXPECT_TRUE(renderer.read_target("depth"));
+        for (const char* name : {"albedo", "light", "surface", "depth"})
+            if (surfaces) surfaces->push_back(renderer.read_target(name).value());
         return image;
     }
 
@@ -53,6 +56,33 @@ protected:
     }
 };
 
+// Surfaces that a compute shader looks up by the number of a pixel's quad are those that fragments would have written.
+TEST_F(ScreenWays, SurfacesAreTheSame) {
+    Effects effects = preset_effects(Preset::high);
+    effects.antialias = i32(Antialias::off);
+    std::vector<TargetPixels> drawn, found;
+    last_of(ScreenWork::fragments, effects, 4000, true, &drawn);
+    last_of(ScreenWork::compute, effects, 4000, true, &found);
+    ASSERT_EQ(drawn.size(), 4u);
+    ASSERT_EQ(found.size(), 4u);
+    const auto& depth = drawn[3].values;
+    EXPECT_EQ(depth, found[3].values);
+    for (u32 k = 0; k < 3; ++k) {
+        const float step = k == 2 ? 1.0f : 1.0f / 255; // of bytes
+        u32 shown = 0, differ = 0;
+        for (std::size_t i = 0; i < depth.size(); ++i) {
+            if (depth[i] <= 0) continue;
+            ++shown;
+            for (std::size_t c = 0; c < 4; ++c)
+                if (std::abs(drawn[k].values[i * 4 + c] - found[k].values[i * 4 + c]) > 2.5f * step) {
+                    ++differ;
+                    break;
+                }
+        }
+        EXPECT_GT(shown, depth.size() / 3);
+        EXPECT_LT(differ, shown / 200) << "target " << k << " of " << shown; // texels' edges, rounded otherwise
+    }
+}
 TEST_F(ScreenWays, DayWithAllEffects) {
     expect_same(preset_effects(Preset::high), 4000);
 }

@@ -1,5 +1,5 @@
 // Surfaces of liquids: waves, what is seen through them, what they mirror. Needs what water.frag.glsl includes before.
-// WAVES: moving normals. SCENE: refraction ("scene" at unit 4, its alpha knows views; layers at unit 14).
+// WAVES: moving normals. SCENE: refraction ("scene" at unit 4, its alpha knows views; layers_at).
 // MIRRORS: rays through the screen.
 const float kRefraction = 1.333;
 
@@ -73,7 +73,7 @@ Blend shade_liquid(vec3 light_up, vec4 light, vec3 towards, float away, uint num
     vec3 behind = place_behind(view, pixel);
     vec3 shift = vec3(0.0); // of the light behind
 #ifdef SCENE
-    vec2 layers = texelFetch(t_layers, pixel, 0).rg;
+    vec2 layers = layers_at(pixel);
     // Where another surface lies between, "scene" is not what lies behind this one: it stays where it is.
     bool last = layers.r >= gl_FragCoord.z * 0.9999;
     vec3 bend = leaves ? (refracted - towards) * 2.0 : refracted - straight;

@@ -31,7 +31,17 @@ layout(binding = 4) uniform sampler2D t_scene; // the solid picture
 #endif
 #endif
 #ifdef SCENE
-layout(binding = 14) uniform sampler2D t_layers; // layers.frag.glsl
+// Of layers.frag.glsl: red the depth of the farthest surface, green (negated) that of the nearest way out of a liquid.
+#ifdef ATOMIC
+layout(binding = 14) uniform usampler2D t_farthest;
+layout(binding = 15) uniform usampler2D t_way_out;
+vec2 layers_at(ivec2 pixel) {
+    return vec2(uintBitsToFloat(texelFetch(t_farthest, pixel, 0).r), -uintBitsToFloat(texelFetch(t_way_out, pixel, 0).r));
+}
+#else
+layout(binding = 14) uniform sampler2D t_layers;
+vec2 layers_at(ivec2 pixel) { return texelFetch(t_layers, pixel, 0).rg; }
+#endif
 #endif
 #include "water/liquid.glsl"
 // Two sources of one blend: what is added, and by color what is let through of the light behind. Water and colored

@@ -9,7 +9,7 @@
 
 namespace vitrail::render {
 
-constexpr u32 kLayersUnit = 14;
+constexpr u32 kLayersUnit = 14, kWayOutUnit = 15;
 
 Result<> WaterPass::build(const BuildContext& context) {
     const Effects& effects = context.effects;
@@ -19,6 +19,11 @@ Result<> WaterPass::build(const BuildContext& context) {
     constexpr const char *kVertex = "terrain/terrain.vert.glsl", *kControl = "water/water.tesc.glsl",
                          *kEvaluation = "water/water.tese.glsl", *kLayers = "water/layers.frag.glsl";
     const bool swell = effects.water.waves && effects.water.swell && effects.water.wave_height > 0;
+    atomic_ = context.compute && effects.water.refraction;
+    if (atomic_) {
+        defines.push_back("ATOMIC");
+        VX_TRY_ASSIGN(clear_, shaders.compute_program("water/layers_clear.comp.glsl"));
+    }
     swell_program_.reset(), layers_program_.reset(), swell_layers_program_.reset();
     if (effects.water.refraction) {
         VX_TRY_ASSIGN(layers_program_, shaders.program(kVertex, kLayers, defines));
@@ -72,30 +77,48 @@ void WaterPass::draw(const gfx::Program& whole, const gfx::Program* cut, const T
     draw_kind(*cut, part, DrawKind::translucent, false, GL_PATCHES);
 }
 
+void WaterPass::find_layers(const gfx::PassContext& p) {
+    if (atomic_) {
+        u32 unit = 0;
+        for (const char* name : {"farthest", "way out"})
+            glBindImageTexture(unit++, p.graph.target(name).name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+        glUseProgram(clear_->name());
+        glDispatchCompute((p.width + 7) / 8, (p.height + 7) / 8, 1);
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        glDisable(GL_BLEND);
+    } else {
+        const float none[4] = {1, 0, 0, 0};
+        glClearNamedFramebufferfv(p.graph.framebuffer("layers"), GL_COLOR, 0, none);
+        glEnable(GL_BLEND);
+        glBlendEquation(GL_MIN);
+    }
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_FALSE);
+    for_each_view(*frame_, [&](u32, const ViewDraws& draws) {
+        bind_terrain(draws.inputs);
+        draw(*layers_program_, swell_layers_program_.get(), draws.inputs, draws);
+    });
+    glBlendEquation(GL_FUNC_ADD);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    if (atomic_) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void WaterPass::declare_layers(DeclareContext& c) {
+    std::vector<std::string> writes{"layers"};
+    if (atomic_) writes = {"farthest", "way out"};
+    for (const std::string& name : writes)
+        c.graph.add_target({.name = name, .format = u32(atomic_ ? GL_R32UI : GL_RG32F)});
+    c.graph.add_pass({"layers", {}, writes, [this](const gfx::PassContext& p) { find_layers(p); }, "depth"});
+}
+
 void WaterPass::declare(DeclareContext& c) {
     const bool refraction = c.effects.water.refraction;
     std::vector<std::string> reads;
     if (refraction) {
-        c.graph.add_target({.name = "layers", .format = GL_RG32F});
-        c.graph.add_pass({"layers",
-                          {},
-                          {"layers"},
-                          [this](const gfx::PassContext& p) {
-                              const float none[4] = {1, 0, 0, 0};
-                              glClearNamedFramebufferfv(p.graph.framebuffer("layers"), GL_COLOR, 0, none);
-                              glEnable(GL_BLEND);
-                              glBlendEquation(GL_MIN);
-                              glEnable(GL_DEPTH_TEST);
-                              glDepthFunc(GL_GREATER);
-                              glDepthMask(GL_FALSE);
-                              for_each_view(*frame_, [&](u32, const ViewDraws& draws) {
-                                  bind_terrain(draws.inputs);
-                                  draw(*layers_program_, swell_layers_program_.get(), draws.inputs, draws);
-                              });
-                              glBlendEquation(GL_FUNC_ADD);
-                          },
-                          "depth"});
-        reads = {"layers", "scene"};
+        declare_layers(c);
+        reads = {atomic_ ? "farthest" : "layers", "scene"};
     }
     c.graph.add_pass({"translucent",
                       reads,
@@ -112,7 +135,9 @@ void WaterPass::declare(DeclareContext& c) {
                               glBindTextureUnit(u32(Unit::depth), p.graph.target("depth").name());
                               if (refraction) {
                                   glBindTextureUnit(u32(Unit::color), p.graph.target("scene").name());
-                                  glBindTextureUnit(kLayersUnit, p.graph.target("layers").name());
+                                  glBindTextureUnit(kLayersUnit,
+                                                    p.graph.target(atomic_ ? "farthest" : "layers").name());
+                                  if (atomic_) glBindTextureUnit(kWayOutUnit, p.graph.target("way out").name());
                               }
                               draw(*program_, swell_program_.get(), draws.inputs, draws);
                           });

@@ -21,8 +21,12 @@ public:
     void declare(DeclareContext& context) override;
 
 private:
+    void declare_layers(DeclareContext& context);
+    void find_layers(const gfx::PassContext& context);
     void draw(const gfx::Program& whole, const gfx::Program* cut, const TerrainInputs& in, const ViewDraws& draws);
     ProgramRef program_, swell_program_, layers_program_, swell_layers_program_;
+    bool atomic_ = false; // layers are found by atomics, not by blending
+    ProgramRef clear_;    // where they are
 };
 
 // How many of the view's translucent commands, the last ones, may show a surface within kSwellReach of the eye.
