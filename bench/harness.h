@@ -36,7 +36,7 @@ public:
     void report(double value);
     // Why this cannot be measured here (no fixture, no device); the row is left out of JSON and said on the screen.
     void skip(std::string reason);
-    // Options of `vitrail bench`: world, at, look.
+    // Options of `vitrail bench`: world, at, look, shaders.
     std::map<std::string, std::string> options;
     std::vector<double> seconds_an_item, values;
     std::string skipped;

@@ -18,7 +18,7 @@ Result<> run_bench(const BenchOptions& options) {
         if (std::none_of(names.begin(), names.end(), [&](const std::string& n) { return n.starts_with(wanted); }))
             return fail(ErrorCode::invalid_argument, fmt::format("no benchmark begins with '{}' (see bench --list)", wanted));
     if (!options.json_file.empty()) VX_TRY(check_writable(options.json_file));
-    const auto samples = suite.run(options.names, {{"world", options.world}, {"at", options.at}, {"look", options.look}});
+    const auto samples = suite.run(options.names, {{"world", options.world}, {"at", options.at}, {"look", options.look}, {"shaders", options.shader_folder}});
     if (!options.json_file.empty() && !bench::write_json(options.json_file, samples))
         return fail(ErrorCode::io, fmt::format("cannot write {}", options.json_file));
     return {};

@@ -85,6 +85,7 @@ struct ServeOptions {
 Result<> run_serve(const ServeOptions& options);
 
 struct BenchOptions {
+    std::string shader_folder; // of the frame benchmarks
     std::vector<std::string> names;
     std::string json_file, world, at, look;
     bool list = false;

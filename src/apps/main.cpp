@@ -176,6 +176,7 @@ int main(int argc, char** argv) {
         c->add_option("--world", bench.world, "world folder for frame benchmarks");
         c->add_option("--at", bench.at, "X,Y,Z of the eye");
         c->add_option("--look", bench.look, "YAW,PITCH in degrees");
+        c->add_option("--shaders", bench.shader_folder, "shaders of the frame benchmarks, from this folder");
         c->add_flag("--list", bench.list, "list the names");
         commands.push_back({c, [&] { return run_bench(bench); }});
     }
