@@ -7,7 +7,8 @@
 
 namespace vitrail::render {
 
-LightAtlas::LightAtlas() {
+LightAtlas::LightAtlas(bool bytes)
+    : bytes_(bytes) {
     grow(1);
     LightBrick sky;
     sky.uniform = true;
@@ -18,7 +19,8 @@ LightAtlas::LightAtlas() {
 
 void LightAtlas::grow(u32 slabs) {
     // 16-bit texels keep a view of 12 chunks near 30 MB; a slab at a time, since most worlds need few.
-    gfx::Texture bigger = gfx::make_texture_3d(GL_RGBA4, kRow * kBrick, kRow * kBrick, slabs * kBrick);
+    gfx::Texture bigger =
+        gfx::make_texture_3d(bytes_ ? GL_RGBA8 : GL_RGBA4, kRow * kBrick, kRow * kBrick, slabs * kBrick);
     gfx::set_filter(bigger, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
     if (slabs_ > 0) {
         glCopyImageSubData(texture_.name(), GL_TEXTURE_3D, 0, 0, 0, 0, bigger.name(), GL_TEXTURE_3D, 0, 0, 0, 0,
@@ -42,9 +44,19 @@ u32 LightAtlas::take() {
 
 void LightAtlas::upload(u32 slot, const u16* cells) {
     const u32 x = slot % kRow, y = slot / kRow % kRow, z = slot / kSlab;
+    const void* texels = cells;
+    if (bytes_) {
+        widened_.resize(kBrick * kBrick * kBrick);
+        for (std::size_t i = 0; i < widened_.size(); ++i) {
+            // The first of four channels is the highest nibble there, the lowest byte here.
+            const u32 c = cells[i];
+            widened_[i] = (c >> 12 | (c >> 8 & 15) << 8 | (c >> 4 & 15) << 16 | (c & 15) << 24) * 17;
+        }
+        texels = widened_.data();
+    }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
     glTextureSubImage3D(texture_.name(), 0, GLint(x * kBrick), GLint(y * kBrick), GLint(z * kBrick), kBrick, kBrick,
-                        kBrick, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, cells);
+                        kBrick, GL_RGBA, bytes_ ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT_4_4_4_4, texels);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 

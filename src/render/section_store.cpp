@@ -9,7 +9,8 @@
 
 namespace vitrail::render {
 
-SectionStore::SectionStore(u64 quad_bytes_start) {
+SectionStore::SectionStore(u64 quad_bytes_start, bool software)
+    : light_(software) {
     const u32 quads = u32(std::clamp<u64>(quad_bytes_start / sizeof(Quad), 1024, 1u << 28));
     quads_ = gfx::make_buffer(u64(quads) * sizeof(Quad), GL_DYNAMIC_STORAGE_BIT);
     ranges_.grow(quads);

@@ -49,7 +49,8 @@ struct SectionPlace {
 
 class SectionStore {
 public:
-    explicit SectionStore(u64 quad_bytes_start);
+    // software: OpenGL is (see LightAtlas).
+    SectionStore(u64 quad_bytes_start, bool software);
     void set(SectionKey key, const SectionMesh& mesh);
     void set_light(SectionKey key, const LightBrick& brick);
     void set_tints(SectionKey key, const TintGrid& tints);

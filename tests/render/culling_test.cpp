@@ -159,7 +159,7 @@ TEST_F(CullingTest, HillsLookTheSameByOcclusion) {
 
 // The walk is done again where something moved, and only there.
 TEST_F(CullingTest, WalksOnlyWhereSomethingMoved) {
-    SectionStore store(1024);
+    SectionStore store(1024, true);
     SectionMesh mesh;
     mesh.connections = kAllConnected;
     for (i32 x = 0; x < 5; ++x)

@@ -9,7 +9,9 @@ vec3 apply_fog(vec3 color, float away, vec3 towards, uint number, float sky) {
     // Black between the walls of a cave.
     vec3 air = sky_dome(towards) * max(ambient.w, sky * sky);
     color = mix(color, air, far);
+#ifndef DRY
     if (views[number].ray_up.w == 0.0) // no mist in water
+#endif
         color = mist_over(color, away, towards, number, max(ambient.w, sky * sky));
     return through_medium(color, towards, away, number);
 }

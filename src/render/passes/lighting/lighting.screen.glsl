@@ -1,4 +1,5 @@
 // Light of every pixel that shows something, once a screen; what differs between views comes from views[view number].
+// ONE_VIEW: all pixels belong to view 0: its data are read once, not by pixel. DRY: see water/medium.glsl.
 #define GLOSS
 #include "common/screen.glsl"
 #include "common/frame.glsl"
@@ -25,7 +26,11 @@ void shade_pixel(ivec2 pixel) {
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
     uvec4 surface = texelFetch(t_surface, pixel, 0);
     float depth = texelFetch(t_depth, pixel, 0).r;
+#ifdef ONE_VIEW
+    const uint number = 0u;
+#else
     uint number = surface.z & 7u;
+#endif
     ViewData view = views[number];
     vec3 ray = view.ray_forward.xyz + view.ray_right.xyz * v_ndc.x + view.ray_up.xyz * v_ndc.y;
     float per_length = inversesqrt(dot(ray, ray));

@@ -12,7 +12,7 @@ public:
     void declare(DeclareContext& context) override;
 
 private:
-    ScreenProgram program_;
+    ScreenProgram any_, plain_; // whatever the views; one view from the air, which most frames are
 };
 
 } // namespace vitrail::render

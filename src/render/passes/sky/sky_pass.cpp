@@ -43,7 +43,9 @@ Result<> SkyPass::build(const BuildContext& context) {
     if (!clouds_) clouds_ = make_cloud_texture();
     for (gfx::Texture& dome : domes_) {
         if (dome) continue;
-        dome = gfx::make_texture_2d(GL_RGBA16F, SkyTable::kWidth, SkyTable::kHeight);
+        // Software OpenGL turns halves into floats one by one, for every pixel whose fog asks the table.
+        const u32 format = context.context.software ? GL_RGBA32F : GL_RGBA16F;
+        dome = gfx::make_texture_2d(format, SkyTable::kWidth, SkyTable::kHeight);
         gfx::set_filter(dome, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE);
     }
     return {};

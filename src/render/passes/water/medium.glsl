@@ -1,4 +1,5 @@
-// Light in water. Needs common/frame.glsl.
+// Light in water. Needs common/frame.glsl. DRY: no view's eye is in a liquid (software OpenGL computes both sides of every
+// branch).
 const float kPhase = 0.30;    // share of scattered light that turns to the eye (render::kWaterPhase)
 const float kDownwards = 0.7; // share of the extinction that light from above suffers: the rest is scattered on downwards
 
@@ -25,6 +26,9 @@ vec3 scattered_on_way(vec3 extinction, vec3 scattering, float path, float down) 
 
 // The liquid around the eye, for what lies `away` blocks off; the way in it ends at its surface.
 vec3 through_medium(vec3 color, vec3 towards, float away, uint number) {
+#ifdef DRY
+    return color;
+#else
     ViewData view = views[number];
     if (view.ray_up.w == 0.0) return color;
     // What glows does so alike everywhere and lets nothing through its skin: no surface ends it, no depth darkens it.
@@ -32,16 +36,22 @@ vec3 through_medium(vec3 color, vec3 towards, float away, uint number) {
     float path = towards.y > 0.0 ? min(away, view.medium.w / max(towards.y, 1e-4)) : away;
     float rate = 1.0 - kDownwards * towards.y;
     return color * exp(-view.medium.rgb * path) + view.murk.rgb * ((1.0 - exp(-view.medium.rgb * (rate * path))) / rate);
+#endif
 }
 
 // Light levels know a gray law of one level a block of water; with the eye in the liquid its surface is known, and what
 // lies below it gets the light of the open sky through that much water. Returns the share by color that is left, and
 // takes the water's levels out of `sky`. depth: blocks below the surface, negative above it.
 vec3 light_in_medium(vec3 place, uint number, inout float sky, out float depth) {
+#ifdef DRY
+    depth = -1.0;
+    return vec3(1.0);
+#else
     ViewData view = views[number];
     depth = view.medium.w - place.y;
     if (view.ray_up.w == 0.0 || depth <= 0.0) return vec3(1.0);
     float expected = max(15.0 - depth, 0.0) * (1.0 / 15.0);
     sky = view.murk.w * clamp(1.0 - (expected - sky) * 2.5, 0.0, 1.0);
     return exp(-view.medium.rgb * (kDownwards * told_depth(depth)));
+#endif
 }
