@@ -138,6 +138,12 @@ static Result<> draw(GameState& state) {
                                          replica.day_ticks(), replica.view_distance(), float(state.seconds),
                                          water_tint_at(replica, block_of(camera(state).eye.at)));
     frame.gamma_exposure = state.settings.gamma;
+    if (const auto& resolution = state.settings.effects.resolution; resolution.hold > 0) {
+        constexpr float kLeast = 0.6f; // below it, far blocks lose their shape
+        const float most = resolution.scale;
+        frame.resolution = state.resolution.next(state.last_frame_ms,
+                                                 {1000.0f / float(resolution.hold), std::min(kLeast, most), most});
+    }
     if (state.hit && !state.hide_ui) {
         scene::Outline outline;
         outline.at = {replica.dimension().info().id, state.hit->block};
@@ -167,6 +173,7 @@ static Result<> play(GameState& state) {
         const float seconds = float(now - last) * 1e-9f;
         last = now;
         state.seconds = double(now - start) * 1e-9;
+        state.last_frame_ms = state.frames == 0 ? 0 : seconds * 1e3f;
         state.frame_ms = state.frames == 0 ? seconds * 1e3f : lerp(state.frame_ms, seconds * 1e3f, 0.1f);
         ++state.frames;
         events.clear();

@@ -11,6 +11,7 @@
 #include "platform/window.h"
 #include "render/ui_imgui.h"
 #include "rules/pick.h"
+#include "scene/resolution.h"
 
 #include <array>
 #include <deque>
@@ -90,6 +91,8 @@ struct GameState {
     std::optional<PickHit> hit;
     double seconds = 0; // since the start
     float frame_ms = 0; // smoothed
+    float last_frame_ms = 0;
+    scene::ResolutionControl resolution; // where a frame rate is to be held (Effects::Resolution)
     u64 frames = 0;
 };
 

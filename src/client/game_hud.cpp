@@ -39,6 +39,7 @@ std::vector<std::string> debug_lines_left(const GameState& state) {
         fmt::format("biome {}", here ? replica.biomes().name(here->biomes.at(local_of(block))) : "?"),
         fmt::format("time {:.0f}{}{}", replica.time_of_day(), state.time_paused ? " stopped" : "", state.free_eye ? "  free camera" : ""),
         "",
+        fmt::format("drawn {} x {}", frame.width, frame.height),
         fmt::format("sections {} of {}  draws {}  quads {}", frame.sections_visible, frame.sections, frame.draws, frame.quads),
         fmt::format("meshing {} waiting, {} at work, {} done", feeder.waiting, feeder.in_flight, feeder.meshed),
     };

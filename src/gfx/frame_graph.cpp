@@ -19,9 +19,12 @@ bool is_depth(u32 format) {
            format == GL_DEPTH24_STENCIL8 || format == GL_DEPTH_COMPONENT16;
 }
 
-Texture make_target(const TargetDesc& d, u32 width, u32 height) {
-    const u32 w = d.width ? d.width : std::max((width + d.divisor - 1) / d.divisor, 1u);
-    const u32 h = d.width ? d.height : std::max((height + d.divisor - 1) / d.divisor, 1u);
+std::pair<u32, u32> size_of(const TargetDesc& d, u32 width, u32 height) {
+    if (d.width) return {d.width, d.height};
+    return {std::max((width + d.divisor - 1) / d.divisor, 1u), std::max((height + d.divisor - 1) / d.divisor, 1u)};
+}
+
+Texture make_target(const TargetDesc& d, u32 w, u32 h) {
     const u32 levels = d.mips ? u32(std::bit_width(std::max(w, h))) : 1;
     Texture made =
         d.layers ? make_texture_2d_array(d.format, w, h, d.layers, levels) : make_texture_2d(d.format, w, h, levels);
@@ -81,8 +84,8 @@ Result<> FrameGraph::compile() const {
                 return wrong(pass, "writes " + name + " twice");
             if (std::find(pass.reads.begin(), pass.reads.end(), name) != pass.reads.end())
                 return wrong(pass, "samples " + name + " while it is attached");
-            const std::pair<u32, u32> own{target->desc.width ? target->desc.width : target->desc.divisor,
-                                          target->desc.width ? target->desc.height : 0};
+            const TargetDesc& d = target->desc;
+            const std::pair<u32, u32> own{d.width ? d.width : d.divisor, d.width ? d.height : d.screen ? ~0u : 0};
             if (size.first != 0 && size != own) return wrong(pass, "writes targets of different sizes");
             size = own;
             written.insert(name);
@@ -91,16 +94,29 @@ Result<> FrameGraph::compile() const {
     return {};
 }
 
-Result<> FrameGraph::resize(u32 width, u32 height) {
-    if (width == width_ && height == height_) return {};
+Result<> FrameGraph::resize(u32 width, u32 height, u32 screen_width, u32 screen_height) {
+    if (screen_width == 0) screen_width = width, screen_height = height;
+    if (width == width_ && height == height_ && screen_width == screen_width_ && screen_height == screen_height_)
+        return {};
     for (auto& [name, t] : targets_) {
         if (t.external) continue;
+        const auto size = size_of(t.desc, t.desc.screen ? screen_width : width, t.desc.screen ? screen_height : height);
+        const auto fits = [&](const Target& has) {
+            return has.textures[0] && std::pair(has.textures[0].width, has.textures[0].height) == size;
+        };
+        if (fits(t)) continue;
+        if (const auto old = cleared_.find(name);
+            old != cleared_.end() && old->second.desc == t.desc && fits(old->second)) {
+            t = std::move(old->second);
+            continue;
+        }
         t.frames = 0;
         for (u32 i = 0; i < (t.desc.history ? 2u : 1u); ++i)
-            t.textures[i] = make_target(t.desc, width, height);
+            t.textures[i] = make_target(t.desc, size.first, size.second);
     }
+    cleared_.clear();
     for (Pass& pass : passes_) {
-        pass.width = width, pass.height = height;
+        pass.width = screen_width, pass.height = screen_height; // of external targets
         bool own_framebuffer = true, history = false;
         for (const std::string& name : pass.desc.writes) {
             const Target& t = targets_.at(name);
@@ -128,7 +144,7 @@ Result<> FrameGraph::resize(u32 width, u32 height) {
                             fmt::format("no framebuffer of {}x{} for pass {}", width, height, pass.desc.name));
         }
     }
-    width_ = width, height_ = height, parity_ = 0;
+    width_ = width, height_ = height, screen_width_ = screen_width, screen_height_ = screen_height;
     return {};
 }
 
@@ -192,11 +208,13 @@ void FrameGraph::collect_times() {
 
 void FrameGraph::clear() {
     passes_.clear();
+    for (auto& [name, t] : targets_)
+        if (t.textures[0]) cleared_[name] = std::move(t);
     targets_.clear();
     timed_ = {};
     next_timed_ = 0;
     times_ms_.clear();
-    width_ = height_ = parity_ = 0;
+    width_ = height_ = screen_width_ = screen_height_ = 0;
 }
 
 bool FrameGraph::has_target(std::string_view name) const {

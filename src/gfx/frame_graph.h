@@ -33,9 +33,11 @@ struct TargetDesc {
     u32 divisor = 1;           // of the frame's size; without meaning where width is set
     u32 width = 0, height = 0; // of its own, whatever the frame's size (0: follows the frame)
     u32 layers = 0;            // above 0: a 2-D array; its passes attach layers themselves (no framebuffer is made)
+    bool screen = false;       // as large as the screen where that is not the frame's size (resize)
     bool history = false;
     bool linear = false; // filtered when sampled; always clamped to the edge
     bool mips = false;   // has all smaller levels too; passes draw into the largest and fill the others
+    bool operator==(const TargetDesc&) const = default;
 };
 
 class FrameGraph;
@@ -63,9 +65,11 @@ public:
     // Errors: invalid_argument, naming the pass: unknown target, a read before any write, a name twice, a pass with no
     // output.
     Result<> compile() const;
-    // Makes targets and framebuffers where the size is new. Errors: limit, where the driver gives no complete
+    // Makes targets and framebuffers where the size is new; targets whose size stays keep what they hold, those of a
+    // graph that was cleared and declared anew too, where they are declared alike. screen_width, screen_height: of
+    // external targets and those with `screen`; 0: the frame's. Errors: limit, where the driver gives no complete
     // framebuffer.
-    Result<> resize(u32 width, u32 height);
+    Result<> resize(u32 width, u32 height, u32 screen_width = 0, u32 screen_height = 0);
     // Runs the passes; afterwards targets with history change places.
     void execute();
     void clear();                                         // passes and targets
@@ -100,9 +104,9 @@ private:
     };
     const Target* find(std::string_view name) const;
     void collect_times();
-    std::unordered_map<std::string, Target> targets_;
+    std::unordered_map<std::string, Target> targets_, cleared_; // the second: kept from clear() to resize()
     std::vector<Pass> passes_;
-    u32 width_ = 0, height_ = 0, parity_ = 0;
+    u32 width_ = 0, height_ = 0, screen_width_ = 0, screen_height_ = 0, parity_ = 0;
     bool timing_ = false;
     std::array<TimedFrame, kTimedFrames> timed_;
     u32 next_timed_ = 0;

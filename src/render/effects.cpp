@@ -17,6 +17,8 @@ constexpr const char* kAntialias[] = {"off", "fxaa", "taa"};
 
 // Values in the order off, low, medium, high, ultra.
 const EffectOption kOptions[] = {
+    {"resolution.scale", "Resolution", "Share of the window's width and height at which the world is drawn.", VX_EFFECT(resolution.scale), 0.5f, 1, {1, 1, 1, 1, 1}},
+    {"resolution.hold", "Hold a frame rate", "Draws the world at less (down to 0.6) where frames come slower than this a second; 0: never.", VX_EFFECT(resolution.hold), 0, 240, {30, 30, 30, 0, 0}},
     {"shadows.on", "Shadows", "Sun and moon cast shadows.", VX_EFFECT(shadows.on), 0, 1, {0, 0, 1, 1, 1}},
     {"shadows.cascades", "Cascades", "Shadow maps, one behind the other.", VX_EFFECT(shadows.cascades), 1, 4, {2, 2, 3, 4, 4}},
     {"shadows.size", "Resolution", "Texels a side of a shadow map.", VX_EFFECT(shadows.size), 256, 8192, {1024, 1024, 1024, 2048, 2048}},

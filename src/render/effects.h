@@ -25,6 +25,11 @@ enum class Clouds : i32 { off, flat, lit };
 enum class Antialias : i32 { off, fxaa, taa };
 
 struct Effects {
+    struct Resolution {
+        float scale = 1; // of the window's width and height, that the world is drawn at
+        i32 hold = 0;    // frames a second for which the game draws it smaller still (scene/resolution.h); 0: never
+        bool operator==(const Resolution&) const = default;
+    } resolution;
     struct Shadows {
         bool on = false;
         i32 cascades = 3, size = 2048; // texels a side of one cascade

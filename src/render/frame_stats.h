@@ -10,6 +10,7 @@
 namespace vitrail::render {
 
 struct FrameStats {
+    u32 width = 0, height = 0;   // that were drawn, before they were enlarged to the picture
     u32 sections = 0;            // held
     // Of all views, with anything to draw: within frustum and distance; of these, where lines of sight lead; of these,
     // drawn.

@@ -68,8 +68,7 @@ static ViewUniforms view_uniforms(const scene::View& view, const scene::View* be
 FrameUniforms make_frame_uniforms(const scene::FrameView& frame, Vec2 jitter, const PreviousViews& before,
                                   bool background_on, Vec3 background) {
     FrameUniforms u{};
-    const bool known =
-        before.views.size() == frame.views.size() && before.width == frame.width && before.height == frame.height;
+    const bool known = before.views.size() == frame.views.size();
     for (u32 i = 0; i < std::min<u32>(u32(frame.views.size()), kViewsMost); ++i)
         u.views[i] = view_uniforms(frame.views[i], known ? &before.views[i] : nullptr, frame.width, frame.height,
                                    jitter, frame.sky);

@@ -15,6 +15,7 @@
 #include "render/passes/taa/taa_pass.h"
 #include "render/passes/terrain/terrain_pass.h"
 #include "render/passes/tonemap/tonemap_pass.h"
+#include "render/passes/upscale/upscale_pass.h"
 #include "render/passes/water/water_pass.h"
 
 namespace vitrail::render {
@@ -51,6 +52,7 @@ PassList make_passes() {
     add<BloomPass>(list, true, true);
     add<TonemapPass>(list, true, true);
     add<FxaaPass>(list, true, true);
+    add<UpscalePass>(list, true, true);
     return list;
 }
 

@@ -3,8 +3,10 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "scene/resolution.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -13,16 +15,16 @@ namespace vitrail::render {
 
 constexpr u32 kTranslucentQuadsSortedAFrame = 30000;
 
-Result<> Renderer::Impl::declare(bool stencil) {
+Result<> Renderer::Impl::declare(bool stencil, bool scaled) {
     const bool timing = !graph.times_ms().empty();
     graph.clear();
     graph.add_external("screen");
-    DeclareContext declaring{graph, effects, stencil};
+    DeclareContext declaring{graph, effects, stencil, scaled};
     for (RenderPass* pass : active())
         pass->declare(declaring);
     VX_TRY(graph.compile());
     if (timing) graph.set_timing(true);
-    declared = true, declared_stencil = stencil;
+    declared = true, declared_stencil = stencil, declared_scaled = scaled;
     return {};
 }
 
@@ -96,21 +98,34 @@ static bool same_place(const scene::FrameView& now, const PreviousViews& before)
     return true;
 }
 
-Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
+Result<> Renderer::render(const scene::FrameView& wanted, u32 framebuffer) {
     Impl& impl = *impl_;
-    if (view.views.empty()) return fail(ErrorCode::invalid_argument, "a frame without a view");
-    if (view.width == 0 || view.height == 0 || view.width > 16384 || view.height > 16384)
+    if (wanted.views.empty()) return fail(ErrorCode::invalid_argument, "a frame without a view");
+    if (wanted.width == 0 || wanted.height == 0 || wanted.width > 16384 || wanted.height > 16384)
         return fail(ErrorCode::invalid_argument,
-                    fmt::format("a picture of {}x{} cannot be drawn", view.width, view.height));
+                    fmt::format("a picture of {}x{} cannot be drawn", wanted.width, wanted.height));
     const u64 start = now_ns();
     if (impl.shaders.changed()) {
         const Result<> built = impl.build(impl.effects);
         impl.shader_error = built ? "" : built.error().message;
         if (!built) log_warning(impl.shader_error);
     }
+    // What is drawn may be smaller than what is shown; passes know of the former, but for the last.
+    const float share = std::clamp(std::min(wanted.resolution, impl.effects.resolution.scale), 0.1f, 1.0f);
+    const auto [width, height] = scene::drawn_size(wanted.width, wanted.height, share);
+    const bool scaled = width != wanted.width || height != wanted.height;
+    scene::FrameView smaller;
+    if (scaled) smaller = wanted, smaller.width = width, smaller.height = height;
+    const scene::FrameView& view = scaled ? smaller : wanted;
+    if (share != impl.textures_for) {
+        // Half of the levels that fewer pixels cost: all of them would flicker.
+        impl.textures.set_level_bias(0.5f * std::log2(share));
+        impl.textures_for = share;
+    }
     const bool stencil = view.views.size() > 1 && !impl.traced;
-    if (!impl.declared || stencil != impl.declared_stencil) VX_TRY(impl.declare(stencil));
-    VX_TRY(impl.graph.resize(view.width, view.height));
+    if (!impl.declared || stencil != impl.declared_stencil || scaled != impl.declared_scaled)
+        VX_TRY(impl.declare(stencil, scaled));
+    VX_TRY(impl.graph.resize(width, height, wanted.width, wanted.height));
 
     FrameContext& frame = impl.frame;
     FrameStats& stats = impl.stats;
@@ -121,7 +136,7 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     frame.effects = &impl.effects;
     frame.context = &impl.context;
     frame.jitter = {};
-    frame.continues = same_place(view, impl.before);
+    frame.continues = same_place(wanted, impl.before);
     frame.seconds_since = frame.continues ? std::clamp(view.seconds - impl.before_seconds, 0.0f, 1.0f) : 0.0f;
     frame.exact = impl.background_on;
     frame.stencil = stencil;
@@ -129,7 +144,8 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     frame.textures = &impl.textures;
     frame.ring = &impl.ring;
     frame.plain_array = impl.plain_array.name();
-    frame.target_framebuffer = framebuffer == kOwnPicture ? impl.own_framebuffer(view.width, view.height) : framebuffer;
+    frame.target_framebuffer =
+        framebuffer == kOwnPicture ? impl.own_framebuffer(wanted.width, wanted.height) : framebuffer;
     frame.target_texture = framebuffer == kOwnPicture ? &impl.picture : nullptr;
     frame.stats = &stats;
     for (RenderPass* pass : impl.active())
@@ -162,9 +178,10 @@ Result<> Renderer::render(const scene::FrameView& view, u32 framebuffer) {
     impl.graph.execute();
     impl.ring.end_frame();
     impl.sections.forget_changes();
-    impl.keep_views(view);
+    impl.keep_views(wanted);
     ++frame.number;
 
+    stats.width = width, stats.height = height;
     stats.sections = u32(impl.sections.all().size());
     stats.triangles = stats.quads * 2;
     stats.quads_held = impl.sections.quads_held();

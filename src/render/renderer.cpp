@@ -42,9 +42,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     VX_TRY_ASSIGN(gfx::ContextInfo context, gfx::context_info());
     gfx::install_debug_callback();
     std::unique_ptr<Renderer> made(new Renderer);
-    made->impl_ = std::make_unique<Impl>(options);
+    made->impl_ = std::make_unique<Impl>(options, std::move(context));
     Impl& impl = *made->impl_;
-    impl.context = std::move(context);
     if (impl.context.software) impl.context.anisotropy_max = 1; // eight times the texture work on the CPU
     impl.compute =
         options.screen == ScreenWork::compute || (options.screen == ScreenWork::automatic && !impl.context.software);
@@ -73,6 +72,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
 Result<> Renderer::load_textures(const BlockRegistry& registry, const scene::PackLooks* packs) {
     TextureLimits limits;
     if (impl_->context.software) limits.bytes_most /= 3; // it is the machine's own memory
+    impl_->textures_for = 1;
     return impl_->textures.load(registry, packs, limits, impl_->effects.surface.smooth, impl_->context.anisotropy_max);
 }
 u32 Renderer::missing_textures() const {

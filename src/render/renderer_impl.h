@@ -13,9 +13,10 @@
 namespace vitrail::render {
 
 struct Renderer::Impl {
-    explicit Impl(const RendererOptions& options)
-        : shaders(options.shader_folder)
-        , sections(options.quad_bytes_start)
+    Impl(const RendererOptions& options, gfx::ContextInfo info)
+        : context(std::move(info))
+        , shaders(options.shader_folder)
+        , sections(options.quad_bytes_start, context.software)
         , ring(1u << 20) {}
 
     gfx::ContextInfo context;
@@ -26,10 +27,12 @@ struct Renderer::Impl {
     PassList passes;
     bool traced = false; // the frame shows a film
     gfx::FrameGraph graph;
-    bool declared = false, declared_stencil = false; // the graph is as effects and views want it
+    bool declared = false, declared_stencil = false,
+         declared_scaled = false; // the graph is as effects and views want it
 
     SectionStore sections;
     TextureSet textures;
+    float textures_for = 1; // share of the picture that their levels are set for; load() forgets
     gfx::UploadRing ring;
     gfx::Buffer quad_indices, models, fixed_tints;
     u32 models_held = 0, models_capacity = 0;
@@ -51,7 +54,7 @@ struct Renderer::Impl {
 
     Result<> build(const Effects& wanted);
     const std::vector<RenderPass*>& active() const { return traced ? passes.traced : passes.raster; }
-    Result<> declare(bool stencil);
+    Result<> declare(bool stencil, bool scaled);
     u32 own_framebuffer(u32 width, u32 height);
     TerrainInputs terrain_inputs() const;
     void prepare_view(u32 index, const scene::View& view);

@@ -40,6 +40,11 @@ Result<> TextureSet::load(const BlockRegistry& registry, const scene::PackLooks*
     return {};
 }
 
+void TextureSet::set_level_bias(float levels) {
+    for (const gfx::Texture* texture : {&albedo_, &material_})
+        glTextureParameterf(texture->name(), GL_TEXTURE_LOD_BIAS, levels);
+}
+
 void TextureSet::set_smooth(bool smooth, float anisotropy) {
     for (const gfx::Texture* texture : {&albedo_, &material_}) {
         if (!*texture) continue;

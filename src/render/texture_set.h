@@ -28,6 +28,8 @@ public:
     u32 size() const { return size_; } // texels of a layer's side
     // Content's pictures that are nowhere, then what models of packs name and nobody has.
     const std::vector<std::string>& missing() const { return missing_; }
+    // Finer (below 0) or coarser levels than the size on the screen asks for.
+    void set_level_bias(float levels);
     void set_smooth(bool smooth, float anisotropy);
     u64 gpu_bytes() const;
 

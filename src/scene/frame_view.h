@@ -62,7 +62,8 @@ struct Outline {
 };
 
 struct FrameView {
-    u32 width = 854, height = 480;
+    u32 width = 854, height = 480; // of the picture
+    float resolution = 1; // 0..1, share of width and height that is drawn, then enlarged (resolution.h)
     std::vector<View> views;
     SkyState sky;
     float view_distance = 192; // blocks

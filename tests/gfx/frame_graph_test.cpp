@@ -106,6 +106,33 @@ TEST_F(Graphics, TargetsFollowTheSize) {
     EXPECT_EQ(take_gl_error(), "");
 }
 
+// What is as large as the screen follows it, whatever the frame's size; what external passes draw into too.
+TEST_F(Graphics, TheScreenMayBeLargerThanTheFrame) {
+    FrameGraph graph;
+    std::vector<std::array<u32, 2>> seen(3);
+    graph.add_external("window");
+    graph.add_target({"small", GL_RGBA8});
+    graph.add_target({.name = "large", .format = GL_RGBA8, .screen = true});
+    const auto note = [&](u32 i) { return [&seen, i](const PassContext& c) { seen[i] = {c.width, c.height}; }; };
+    graph.add_pass({"draw", {}, {"small"}, note(0), ""});
+    graph.add_pass({"enlarge", {"small"}, {"large"}, note(1), ""});
+    graph.add_pass({"show", {"large"}, {"window"}, note(2), ""});
+    ASSERT_TRUE(graph.compile());
+    ASSERT_TRUE(graph.resize(30, 20, 50, 40));
+    graph.execute();
+    EXPECT_EQ(seen, (std::vector<std::array<u32, 2>>{{30, 20}, {50, 40}, {50, 40}}));
+    const u32 large = graph.target("large").name();
+    ASSERT_TRUE(graph.resize(40, 30, 50, 40));
+    graph.execute();
+    EXPECT_EQ(seen, (std::vector<std::array<u32, 2>>{{40, 30}, {50, 40}, {50, 40}}));
+    EXPECT_EQ(graph.target("large").name(), large); // its size stayed
+    FrameGraph mixed;
+    mixed.add_target({"small", GL_RGBA8});
+    mixed.add_target({.name = "large", .format = GL_RGBA8, .screen = true});
+    mixed.add_pass(pass("both", {}, {"small", "large"}));
+    EXPECT_NE(refusal(mixed).find("different sizes"), std::string::npos);
+}
+
 static float first_texel(const Texture& texture) {
     std::vector<float> values(std::size_t(texture.width) * texture.height);
     glGetTextureImage(texture.name(), 0, GL_RED, GL_FLOAT, GLsizei(values.size() * sizeof(float)), values.data());
@@ -155,6 +182,45 @@ TEST_F(Graphics, HistoryIsTheFrameBefore) {
     without.add_target({.name = "b", .format = GL_R32F});
     without.add_pass(pass("one", {"a@before"}, {"b"}));
     EXPECT_NE(refusal(without).find("a@before"), std::string::npos);
+}
+
+// What a target held stays where its size and description do: through another size of the frame, and where passes are
+// declared anew.
+TEST_F(Graphics, TargetsThatStayAsTheyAreKeepWhatTheyHold) {
+    FrameGraph graph;
+    std::vector<float> before;
+    const auto declare = [&](u32 format) {
+        graph.clear();
+        graph.add_target({.name = "one", .format = format, .width = 1, .height = 1, .history = true});
+        graph.add_target({.name = "color", .format = GL_R32F});
+        graph.add_pass({"count",
+                        {"one@before"},
+                        {"one"},
+                        [&](const PassContext& c) {
+                            before.push_back(c.graph.has_history("one") ? first_texel(c.graph.target("one@before"))
+                                                                        : -1);
+                            glClearBufferfv(GL_COLOR, 0, std::array{float(before.size()), 0.0f, 0.0f, 0.0f}.data());
+                        },
+                        ""});
+        graph.add_pass({"draw", {"one"}, {"color"}, [](const PassContext&) {}, ""});
+        ASSERT_TRUE(graph.compile());
+    };
+    declare(GL_R32F);
+    for (u32 width : {8u, 8u, 9u}) {
+        ASSERT_TRUE(graph.resize(width, 8));
+        graph.execute();
+    }
+    declare(GL_R32F);
+    graph.clear(); // twice in a row, and without a frame between: as once
+    declare(GL_R32F);
+    ASSERT_TRUE(graph.resize(9, 8));
+    graph.execute();
+    graph.execute();
+    declare(GL_R16F); // another target of the same name
+    ASSERT_TRUE(graph.resize(9, 8));
+    graph.execute();
+    EXPECT_EQ(before, (std::vector<float>{-1, 1, 2, 3, 4, -1}));
+    EXPECT_EQ(take_gl_error(), "");
 }
 
 // Times come some frames later, for every pass in order, and never for passes of another list.

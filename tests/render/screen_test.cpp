@@ -98,4 +98,54 @@ TEST_F(ScreenWays, SeveralViewsAndFxaa) {
     expect_same(effects, 1000, true);
 }
 
+// Drawn smaller and enlarged, the picture shows the same in the same places.
+TEST_F(ScreenWays, SmallerPicturesAreEnlarged) {
+    bench::SampleScene scene(2, true);
+    scene.registry.content_roots = {test_content()};
+    for (const ScreenWork way : {ScreenWork::fragments, ScreenWork::compute}) {
+        Effects effects = preset_effects(Preset::low);
+        effects.antialias = i32(Antialias::fxaa);
+        auto made = Renderer::create({.effects = effects, .quad_bytes_start = 16384, .screen = way});
+        ASSERT_TRUE(made) << made.error().message;
+        Renderer& renderer = **made;
+        scene.give(renderer);
+        ASSERT_TRUE(renderer.load_textures(scene.registry));
+        auto frame = bench::SampleScene::frame(211, 123, eye_at(30.5, scene.ground(30, -41) + 9.0, -40.5), -60, 12, 4);
+        const Image whole = draw(renderer, frame);
+        EXPECT_EQ(renderer.stats().width, 211u);
+        // Mean difference to the whole picture moved by so many pixels to the right.
+        const auto off_by = [&](const Image& image, i32 aside) {
+            u64 sum = 0, count = 0;
+            for (u32 y = 0; y < image.height; ++y)
+                for (u32 x = 8; x < image.width - 8; ++x)
+                    for (u32 c = 0; c < 3; ++c, ++count)
+                        sum += u64(std::abs(int(image.at(x, y)[c]) - int(whole.at(u32(i32(x) - aside), y)[c])));
+            return double(sum) / double(count);
+        };
+        double before = 0;
+        for (const float share : {0.9f, 0.6f}) {
+            frame.resolution = share;
+            const Image image = draw(renderer, frame);
+            ASSERT_EQ(image.width, whole.width);
+            ASSERT_EQ(image.height, whole.height);
+            EXPECT_EQ(renderer.stats().width, u32(std::lround(211 * share)));
+            EXPECT_EQ(renderer.stats().height, u32(std::lround(123 * share)));
+            const double off = off_by(image, 0);
+            EXPECT_GT(off, before); // what is left out is gone
+            EXPECT_LT(off, 7);
+            for (const i32 aside : {-1, 1}) // no part of a pixel aside
+                EXPECT_LT(off, off_by(image, aside));
+            before = off;
+        }
+        // The lower of what the frame and the effects say.
+        effects.resolution.scale = 0.5f;
+        ASSERT_TRUE(renderer.set_effects(effects));
+        draw(renderer, frame);
+        EXPECT_EQ(renderer.stats().width, 106u);
+        effects.resolution.scale = 1, frame.resolution = 1;
+        ASSERT_TRUE(renderer.set_effects(effects));
+        EXPECT_LT(off_by(draw(renderer, frame), 0), 0.5);
+    }
+}
+
 } // namespace vitrail::render

@@ -28,6 +28,7 @@ struct DeclareContext {
     gfx::FrameGraph& graph;
     const Effects& effects;
     bool stencil = false; // several views: depth carries the view's number as stencil
+    bool scaled = false;  // drawn at less than the screen's size
     // The target that holds the picture in linear HDR after the passes declared so far; a pass that makes a new one
     // (antialiasing in time) names it here.
     std::string color = "color";

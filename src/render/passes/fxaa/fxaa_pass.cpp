@@ -14,12 +14,14 @@ Result<> FxaaPass::build(const BuildContext& context) {
 
 void FxaaPass::declare(DeclareContext& c) {
     if (Antialias(c.effects.antialias) != Antialias::fxaa) return;
-    const std::string picture = std::exchange(c.display, "screen");
+    const std::string picture = std::exchange(c.display, c.scaled ? "smoothed" : "screen");
+    if (c.scaled) c.graph.add_target({.name = "smoothed", .format = GL_RGBA8, .linear = true});
     c.graph.add_pass({"fxaa",
                       {picture},
                       {c.display},
                       [this, picture](const gfx::PassContext& p) {
-                          glBindFramebuffer(GL_FRAMEBUFFER, frame_->target_framebuffer);
+                          if (p.graph.framebuffer("fxaa") == 0)
+                              glBindFramebuffer(GL_FRAMEBUFFER, frame_->target_framebuffer);
                           draw_screen(*program_, frame_->plain_array, ScreenArea::all,
                                       {p.graph.target(picture).name()});
                       },

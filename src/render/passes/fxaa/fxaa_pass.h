@@ -1,5 +1,5 @@
-// Fast antialiasing of the finished picture, from DeclareContext::display into the screen. Cheaper than TAA and without
-// memory; it cannot calm what flickers in motion.
+// Fast antialiasing of the finished picture, from DeclareContext::display into the screen, or what upscale brings
+// there. Cheaper than TAA and without memory; it cannot calm what flickers in motion.
 #pragma once
 
 #include "render/passes/pass.h"

@@ -18,9 +18,9 @@ Result<> TonemapPass::build(const BuildContext& context) {
 }
 
 void TonemapPass::declare(DeclareContext& c) {
-    if (Antialias(c.effects.antialias) == Antialias::fxaa) {
+    if (c.scaled || Antialias(c.effects.antialias) == Antialias::fxaa) {
         c.graph.add_target({.name = "display", .format = GL_RGBA8, .linear = true});
-        c.display = "display"; // fxaa brings it to the screen
+        c.display = "display"; // fxaa or upscale bring it to the screen
     }
     // Threads cannot write into a window: there the picture is carried over. Into a texture they write themselves.
     const bool carried = compute_ && c.display == "screen";
