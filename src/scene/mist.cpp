@@ -20,15 +20,4 @@ Mist mist_at(const SkyState& sky) {
     return mist;
 }
 
-float mist_column(const Mist& mist, float above) {
-    return above < 0 ? above : mist.height * (1 - std::exp(-above / mist.height));
-}
-
-float mist_depth(const Mist& mist, float above, float rise, float away) {
-    const float climb = rise * away, middle = above + 0.5f * climb;
-    const float mean = std::abs(climb) < 0.05f ? std::exp(-(middle > 0 ? middle : 0) / mist.height)
-                                               : (mist_column(mist, above + climb) - mist_column(mist, above)) / climb;
-    return (mist.haze + mist.mist * mean) * away;
-}
-
 } // namespace vitrail::scene

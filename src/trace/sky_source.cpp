@@ -35,7 +35,8 @@ SkyView sky_view_of(const scene::FrameView& frame) {
     v.sun_light = v.open ? sky.sun_light : Vec3{};
     v.ground = v.open ? scene::surrounding_light(sky, {0, -1, 0}) : kDark;
     const scene::Mist mist = scene::mist_at(sky);
-    if (v.open) v.haze = mist.haze, v.mist = mist.mist;
+    v.open_air = v.open ? view.open_air : 0.0f;
+    v.haze = mist.haze * v.open_air, v.mist = mist.mist * v.open_air;
     v.mist_height = mist.height;
     v.sea_level = view.sea_level;
     v.view_distance = std::max(frame.view_distance, 1.0f);

@@ -20,8 +20,9 @@ struct SkyView {
     Vec3 ground;       // radiance of the land beyond the window (below the horizon)
     Vec3 above, below; // irradiance over pi of level surfaces from above and from below (clouds' light)
     bool open = true;  // false: a dimension without sky; then `ground` is all around
-    // Air (scene::Mist), extinction a block.
+    // Air (scene::Mist), extinction a block; none deep in caves.
     float haze = 0, mist = 0, mist_height = 10;
+    float open_air = 1; // 0..1: how open to the sky the eye stands
     i32 sea_level = 63;
     float view_distance = 192; // blocks: land beyond fades into the sky's color
     const scene::SkyTable* dome = nullptr;
