@@ -41,7 +41,8 @@ for _, c in ipairs { "", "white_", "orange_", "magenta_", "light_blue_", "yellow
   end
   block(t, merge(DECOR, { shape = "boxes", texture = t, hardness = 0.1, boxes = sets[1], variants = variants }), "candles:1-4 lit? wl")
   block(t .. "_cake", merge(DECOR, { shape = "boxes", texture = { "cake_side", "cake_top", "cake_bottom" },
-    boxes = { { 1, 0, 1, 15, 8, 15 }, { 7, 8, 7, 9, 14, 9, t } }, material = "wool", variants = { ["lit=true"] = { light = 3 } } }), "lit?")
+    boxes = { { 1, 0, 1, 15, 8, 15 }, { 7, 8, 7, 9, 14, 9, t } }, material = "wool", variants = { ["lit=true"] = { light = 3,
+      boxes = { { 1, 0, 1, 15, 8, 15 }, { 7, 8, 7, 9, 14, 9, t }, { 7, 14, 7, 9, 14.5, 9, t .. "_lit_top" } } } } }), "lit?")
 end
 
 block("terracotta", merge(STONE, { texture = "terracotta", hardness = 1.25 }))

@@ -20,11 +20,25 @@ struct Wave {
     i32 x, z, t;
     float height;
 };
-inline constexpr Wave kWaves[kSwells + kRipples] = {
-    {15, 5, 44, 0.40f},       {14, 21, 55, 0.30f},       {38, 2, 68, 0.18f},        {39, 40, 82, 0.12f},
-    {19, 73, 95, 0.0150f},    {95, 32, 110, 0.0122f},    {-52, 122, 127, 0.0094f},  {171, -31, 145, 0.0072f},
-    {137, 180, 165, 0.0056f}, {190, -229, 190, 0.0042f}, {-119, 367, 216, 0.0030f}, {421, 287, 249, 0.0020f},
+struct WaveTable {
+    Wave waves[kSwells + kRipples];
 };
+VX_HD constexpr WaveTable wave_table() { // by a function: device code knows no tables of the host
+    return {{
+        {15, 5, 44, 0.40f},
+        {14, 21, 55, 0.30f},
+        {38, 2, 68, 0.18f},
+        {39, 40, 82, 0.12f},
+        {19, 73, 95, 0.0150f},
+        {95, 32, 110, 0.0122f},
+        {-52, 122, 127, 0.0094f},
+        {171, -31, 145, 0.0072f},
+        {137, 180, 165, 0.0056f},
+        {190, -229, 190, 0.0042f},
+        {-119, 367, 216, 0.0030f},
+        {421, 287, 249, 0.0020f},
+    }};
+}
 
 struct WaveSurface {
     float swell = 0, ripple = 0; // blocks above the level surface; geometry is moved by the swell alone
@@ -32,7 +46,23 @@ struct WaveSurface {
 };
 // place: the block of the world; inside: 0..1 in it (any number); seconds: since the start; wave_height: blocks, the
 // most that the swell rises or falls.
-WaveSurface wave_at(BlockPos place, Vec2 inside, float seconds, float wave_height);
+VX_HD WaveSurface wave_at(BlockPos place, Vec2 inside, float seconds, float wave_height) {
+    constexpr float kTurn = 6.2831853f, kPer = 1.0f / float(kWavePeriod);
+    constexpr WaveTable kTable = wave_table();
+    const float x = float(place.x & (kWavePeriod - 1)) + inside.x, z = float(place.z & (kWavePeriod - 1)) + inside.y;
+    const float t = std::fmod(seconds, float(kWavePeriod));
+    WaveSurface out;
+    for (u32 i = 0; i < kSwells + kRipples; ++i) {
+        const Wave& w = kTable.waves[i];
+        float turns = (float(w.x) * x + float(w.z) * z - float(w.t) * t) * kPer;
+        turns -= std::floor(turns);
+        const float height = i < kSwells ? w.height * wave_height : w.height * (wave_height / 0.06f);
+        (i < kSwells ? out.swell : out.ripple) += height * std::sin(turns * kTurn);
+        const float steep = height * kTurn * kPer * std::cos(turns * kTurn);
+        out.slope.x += steep * float(w.x), out.slope.y += steep * float(w.z);
+    }
+    return out;
+}
 
 // What light loses a block (base e, by color) in water of this tint (sRGB 0..1): what the tint lacks is absorbed.
 struct LiquidOptics {

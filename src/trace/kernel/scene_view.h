@@ -34,8 +34,9 @@ struct StateRecord {
     u16 quads = 0;
     CellKind kind = CellKind::empty;
     u8 medium = 0; // of the cell's inside: index into SceneView::media; 0 air. Waterlogged models: water's
-    // In 1/16: lamp radiance of an emission texel of 1, already balanced for the emitting area
+    // In kEmissionUnit: lamp radiance of a white emission texel of 1, already balanced for the emitting area
     // (trace/content/emission.h).
+    static constexpr float kEmissionUnit = 1.0f / 16;
     u16 emission[3] = {0, 0, 0};
     u8 optics = 0;        // Optics of its cube faces
     u8 liquid_height = 0; // liquids: of the level surface, 1/256 block - 1

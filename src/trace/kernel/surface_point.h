@@ -8,7 +8,7 @@ namespace vitrail::trace {
 
 struct SurfacePoint {
     Place at;            // on the surface; `at.cell` is on the side that the ray came from
-    IVec3 inner;         // the block's own cell
+    IVec3 inner;         // the cell behind the surface: that of `at` where it lies inside a cell
     Vec3 face;           // of the geometry, unit, on the side that the ray came from
     Vec3 normal;         // for shading, unit, never below the horizon of `face` seen from the ray
     Vec3 albedo;         // linear, tint in it; thin and dielectric: what is left of light that goes through
@@ -17,7 +17,7 @@ struct SurfacePoint {
     Optics optics = Optics::matte;
     float ior = 1.5f;  // dielectrics: index behind the surface over that on the ray's side; else of the coat
     float opacity = 1; // thin: share of the sheet that is painted and lets nothing through (diffuse `albedo` instead)
-    u8 medium_here = 0, medium_behind = 0; // SceneView::media on either side
+    u8 medium_here = 0, medium_behind = 0; // SceneView::media on either side; not of matte and metal
     bool plant = false;                    // crossed sheets: lit without regard to the side
     u32 surface = 0;                       // state and face hashed (PixelSample::surface)
 };
