@@ -1,4 +1,7 @@
+// The denoised picture against the one that the samples tend to: noise, edges, energy, flicker, upscaling.
 #include "trace/film_scene.h"
+
+#include "trace/film/stages.h"
 
 #include <gtest/gtest.h>
 
@@ -8,116 +11,220 @@ using namespace vitrail::trace::film_scene;
 
 namespace {
 
-constexpr u32 kW = 240, kH = 136;
+constexpr u32 kW = 128, kH = 72;
+constexpr Vec3 kEye{0.3f, 2.2f, 2.7f};
 
-TEST(FilmDenoise, Probe) {
-    Scene s;
-    const Vec3 eye{0.3f, 2.2f, 2.7f};
-    const Camera c = camera(kW, kH, eye);
+double psnr(const Picture& a, const Picture& b) {
+    return -20 * std::log10(rmse(a, b));
+}
+
+Picture run(Film& film, const Scene& s, const Camera& c, const FilmSettings& settings, u32 frames, u64 seed) {
+    Picture p;
+    for (u32 n = 0; n < frames; ++n)
+        p = frame(film, s, c, settings, false, seed + n);
+    return p;
+}
+
+TEST(FilmDenoise, NoiseGoesFromTheFirstFrameOn) {
+    const Scene s;
+    const Camera c = camera(kW, kH, kEye);
     const Picture right = truth(s, c);
+    const double noise = rmse(noisy(s, c, 1), right);
+    Film film;
+    const Picture first = run(film, s, c, {}, 1, 100);
+    EXPECT_LT(rmse(first, right), noise / 2.5);
+    const Picture later = run(film, s, c, {}, 31, 101);
+    EXPECT_LT(rmse(later, right), noise / 8);
+    EXPECT_LT(rmse(later, right), rmse(first, right) / 2);
+    // As many samples without the filter are worse.
+    Film plain;
+    EXPECT_LT(rmse(later, right), 0.7 * rmse(run(plain, s, c, {.denoise = false}, 32, 100), right));
+    show("first", first, kW), show("later", later, kW), show("right", right, kW);
+}
+
+TEST(FilmDenoise, EdgesStaySharp) {
+    const Camera c = camera(kW, kH, kEye);
+    const Scene noise;
+    Scene clean;
+    clean.noise = false;
+    const Picture right = truth(clean, c);
+    // Pixels beside a strong step of the picture: silhouettes, borders of shadows.
+    std::vector<bool> edge(right.size());
+    for (u32 y = 0; y < kH; ++y)
+        for (u32 x = 1; x < kW; ++x) {
+            const float a = luminance(right[y * kW + x - 1]), b = luminance(right[y * kW + x]);
+            if (std::fabs(a - b) > 0.4f * std::max(a, b)) edge[y * kW + x] = edge[y * kW + x - 1] = true;
+        }
+    const auto at_edge = [&](std::size_t i) { return bool(edge[i]); };
+    Picture blurred = right; // over 3x3 pixels
+    for (u32 y = 1; y + 1 < kH; ++y)
+        for (u32 x = 1; x + 1 < kW; ++x) {
+            Vec3 sum;
+            for (u32 k = 0; k < 9; ++k)
+                sum += right[(y + k / 3 - 1) * kW + x + k % 3 - 1];
+            blurred[y * kW + x] = sum * (1.0f / 9);
+        }
+    const double blur = rmse(blurred, right, at_edge);
+    Film a, b;
+    const Picture sharp = run(a, clean, c, {}, 30, 100), filtered = run(b, noise, c, {}, 60, 100);
+    EXPECT_LT(rmse(sharp, right, at_edge), 0.5 * blur);
+    EXPECT_LT(rmse(filtered, right, at_edge), 0.75 * blur);
+}
+
+TEST(FilmDenoise, EnergyStays) {
     for (const bool half : {false, true}) {
-        const std::string tag = half ? "half_" : "full_";
-        std::printf("---- %s noisy %.4f\n", tag.c_str(), rmse(noisy(s, c, 1), right));
-        const FilmSettings set{.half = half};
+        Scene s;
+        s.rare = 0.006f; // spikes carry a third of the light
+        double got = 0, right = 0;
+        for (u32 part = 0; part < 4; ++part) {
+            Film film;
+            for (u32 n = 0; n < 14; ++n) {
+                const Camera c = camera(kW, kH, kEye + Vec3{0.05f * float(n + 9 * part), 0, 0});
+                const Picture p = frame(film, s, c, {.half = half}, false, 1000 * part + n);
+                if (n % 3) continue;
+                got += mean(p);
+                right += mean(truth(s, c, 3));
+            }
+        }
+        EXPECT_NEAR(got / right, 1, half ? 0.015 : 0.01) << half;
+    }
+}
+
+TEST(FilmDenoise, SpikesAreSpreadNotCut) {
+    Film film;
+    Scene s;
+    const Camera c = camera(kW, kH, kEye);
+    frame(film, s, c, {.spread_spikes = 4}, false, 5);
+    const FilmPlanes& p = film.planes();
+    double before = 0, after = 0, most_before = 0, most_after = 0;
+    for (u32 y = 0; y < kH; ++y)
+        for (u32 x = 0; x < kW; ++x) {
+            const i32 j = framed_at(p, i32(x), i32(y));
+            before += double(p.light.r[j]), after += double(p.fresh.r[j]);
+            most_before = std::max(most_before, double(p.light.r[j]));
+            most_after = std::max(most_after, double(p.fresh.r[j]));
+        }
+    EXPECT_NEAR(after / before, 1, 1e-3);
+    EXPECT_LT(most_after, 0.75 * most_before);
+}
+
+TEST(FilmDenoise, RestIsCalm) {
+    const Scene s;
+    const Camera c = camera(kW, kH, kEye);
+    Film film;
+    run(film, s, c, {}, 30, 1);
+    const std::size_t pixels = kW * kH;
+    std::vector<double> sum(pixels), squares(pixels);
+    constexpr u32 kFrames = 16;
+    double all = 0;
+    for (u32 n = 0; n < kFrames; ++n) {
+        const Picture p = frame(film, s, c, {}, false, n + 500);
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const double l = double(luminance(p[i]));
+            sum[i] += l, squares[i] += l * l, all += l;
+        }
+    }
+    double flicker = 0;
+    for (std::size_t i = 0; i < pixels; ++i)
+        flicker += std::max(0.0, squares[i] / kFrames - (sum[i] / kFrames) * (sum[i] / kFrames));
+    EXPECT_LT(std::sqrt(flicker / double(pixels)), 0.02 * all / double(pixels) / kFrames);
+}
+
+// Filtered at first, the mean in the end.
+TEST(FilmDenoise, RestTendsToTheMean) {
+    Scene s;
+    s.rare = 0.002f;
+    const Camera c = camera(24, 14, kEye);
+    const Picture right = truth(s, c, 16);
+    for (const bool half : {false, true}) {
         Film film;
-        film.resize(kW, kH);
-        double e = 0;
-        for (u32 n = 0; n < 64; ++n) {
-            const Picture p = frame(film, s, c, set, false, n + 100);
-            e += mean(p) / mean(right) / 64;
-            if ((n & (n + 1)) == 0)
-                std::printf("rest %u: %.4f energy %.4f\n", n, rmse(p, right), mean(p) / mean(right)),
-                    show(tag + "rest" + std::to_string(n), p, kW);
+        const u32 few = half ? 256 : 64;
+        run(film, s, c, {.half = half}, few, 1);
+        EXPECT_EQ(film.state().to_mean, 0);
+        run(film, s, c, {.half = half}, half ? 4 * 4'200 - few : 4'200 - few, 10'000);
+        EXPECT_EQ(film.state().to_mean, 1);
+        Picture p;
+        for (const Vec4& v : film.color())
+            p.push_back({v.x, v.y, v.z});
+        // 1 / sqrt(4,200) of a sample's noise.
+        const double expected = rmse(noisy(s, c, 3), right) / std::sqrt(4'200);
+        EXPECT_LT(rmse(p, right), 3 * expected + 1e-3) << half;
+        EXPECT_NEAR(mean(p) / mean(right), 1, 2e-3) << half;
+    }
+}
+
+TEST(FilmDenoise, MistIsSmoothAndKeepsItsEdges) {
+    Scene s;
+    s.mist = 0.05f;
+    const Camera c = camera(kW, kH, kEye);
+    const Picture right = truth(s, c);
+    const double noise = rmse(noisy(s, c, 1), right);
+    Film film;
+    const Picture p = run(film, s, c, {}, 16, 3);
+    EXPECT_LT(rmse(p, right), noise / 6);
+    EXPECT_NEAR(mean(p) / mean(right), 1, 0.01);
+    show("mist", p, kW), show("mist_right", right, kW);
+}
+
+TEST(FilmDenoise, AQuarterOfTheSamplesGivesTheWholePicture) {
+    const Scene s;
+    Film whole, half, plain;
+    double full_db = 0, half_db = 0, noisy_db = 0;
+    Picture p, right;
+    for (u32 n = 0; n < 24; ++n) {
+        const Camera c = camera(kW, kH, kEye + Vec3{0.04f * float(n), 0, 0});
+        const Picture a = frame(whole, s, c, {}, false, n);
+        p = frame(half, s, c, {.half = true}, false, n);
+        if (n < 16) continue;
+        right = truth(s, c, 3);
+        full_db += psnr(a, right) / 8, half_db += psnr(p, right) / 8, noisy_db += psnr(noisy(s, c, n), right) / 8;
+    }
+    EXPECT_GT(half_db, 25);
+    EXPECT_GT(half_db, noisy_db + 10);
+    EXPECT_GT(half_db, full_db - 2.5);
+    show("half", p, kW), show("half_right", right, kW);
+    // At rest more.
+    Film rest;
+    const Camera c = camera(kW, kH, kEye);
+    EXPECT_GT(psnr(run(rest, s, c, {.half = true}, 40, 1), truth(s, c)), 27.5);
+    // Only a quarter was read.
+    EXPECT_EQ(std::count(rest.planes().light.r, rest.planes().light.r + kW, kMissing),
+              rest.state().half_y ? kW : kW / 2);
+}
+
+TEST(FilmDenoise, AnyVectorsAnyThreads) {
+    const Scene s;
+    ThreadPool pool(3);
+    Film a, b;
+    const std::vector<Solid> all = solids(s);
+    for (u32 n = 0; n < 6; ++n) {
+        const Camera view = camera(101, 57, kEye + Vec3{0.1f * float(n), 0, 0});
+        for (Film* film : {&a, &b}) {
+            const Camera c = film->begin(view, {.half = n > 3}, false);
+            for (u32 y = 0; y < c.height; ++y)
+                for (u32 x = 0; x < c.width; ++x)
+                    film->put(x, y,
+                              look(s, all, eye_of(c),
+                                   direction_through(c, float(x) + 0.5f + c.jitter.x, float(y) + 0.5f + c.jitter.y),
+                                   u64(n * 57 + y) * 101 + x + 1));
+            film->finish(film == &a ? nullptr : &pool);
         }
-        std::printf("energy %.4f\n", e);
-        // motions
-        for (u32 kind = 0; kind < 4; ++kind) {
-            const char* names[] = {"walk", "pan", "zoom", "forward"};
-            Film f2;
-            f2.resize(kW, kH);
-            double err = 0, energy = 0, gone = 0, gone_bias = 0, flick = 0;
-            Picture last, last_t;
-            for (u32 n = 0; n < 30; ++n) {
-                const float t = float(n);
-                const Camera m = kind == 0   ? camera(kW, kH, {0.3f + 0.12f * t, 2.2f, 2.7f})
-                                 : kind == 1 ? camera(kW, kH, eye, 0.02f * t)
-                                 : kind == 2 ? camera(kW, kH, eye, 0, -0.12f, 0.7f - 0.012f * t)
-                                             : camera(kW, kH, {0.3f, 2.2f, 2.7f - 0.12f * t});
-                const Picture p = frame(f2, s, m, set, false, n + 1000);
-                const Picture tr = truth(s, m, 3);
-                if (n >= 15) {
-                    err += rmse(p, tr) / 15, energy += mean(p) / mean(tr) / 15;
-                    double b = 0, k = 0;
-                    for (std::size_t i = 0; i < p.size(); ++i) {
-                        if (f2.planes().past.light == nullptr || f2.planes().next.light[i].w > 1.5f ||
-                            f2.planes().albedo[i].w == 0)
-                            continue;
-                        b += double(luminance(p[i]) - luminance(tr[i])) / double(luminance(tr[i]));
-                        k += 1;
-                    }
-                    if (k > 0) gone_bias += b / k / 15;
-                    gone += rmse(p, tr,
-                                 [&](std::size_t i) {
-                                     return f2.planes().next.light[i].w < 1.5f && f2.planes().albedo[i].w > 0;
-                                 }) /
-                            15;
-                }
-                last = p, last_t = tr;
-            }
-            (void)flick;
-            std::printf("%s: %.4f energy %.4f  new: %.4f bias %.4f\n", names[kind], err, energy, gone, gone_bias);
-            show(tag + names[kind], last, kW);
-            show(tag + names[kind] + "_t", last_t, kW);
-        }
-        // lamp
-        {
-            Scene on = s;
-            s.sun_strength = on.sun_strength = 0.0f;
-            s.sky = on.sky = 0.1f;
-            on.lamp = true;
-            const Picture dark = truth(s, c), bright = truth(on, c);
-            Film f3;
-            f3.resize(kW, kH);
-            std::printf("lamp on at 20, off at 50\n");
-            for (u32 n = 0; n < 80; ++n) {
-                const bool lit = n >= 20 && n < 50;
-                const Picture p = frame(f3, lit ? on : s, c, set, n == 20 || n == 50, n + 5000);
-                double got = 0, all = 0;
-                for (std::size_t i = 0; i < p.size(); ++i)
-                    got += double(luminance(p[i]) - luminance(dark[i])),
-                        all += double(luminance(bright[i]) - luminance(dark[i]));
-                if (n == 19 || (n >= 20 && n < 36 && n % 3 == 0) || n == 49 || (n >= 50 && n < 66 && n % 3 == 0) ||
-                    n == 79)
-                    std::printf("  %u: %.3f rmse %.4f\n", n, got / all, rmse(p, lit ? bright : dark));
-                if (n == 19 || n == 26 || n == 49 || n == 56 || n == 62) show(tag + "lamp" + std::to_string(n), p, kW);
-            }
-            s = Scene{};
-        }
-        // wall gone, sun turning
-        {
-            Scene no = s;
-            no.wall = false;
-            const Picture after = truth(no, c);
-            Film f4;
-            f4.resize(kW, kH);
-            for (u32 n = 0; n < 40; ++n) {
-                const Picture p = frame(f4, n < 20 ? s : no, c, set, n == 20, n + 7000);
-                if (n >= 20 && n < 36 && n % 3 == 2) std::printf("wall gone %u: %.4f\n", n - 20, rmse(p, after));
-                if (n == 30) show(tag + "wall", p, kW);
-            }
-            Scene day = s;
-            Film f5;
-            f5.resize(kW, kH);
-            Picture p, t;
-            for (u32 n = 0; n < 60; ++n) {
-                const float a = 0.9f + 0.002f * float(n);
-                day.sun = {std::cos(a) * 0.8f, std::sin(a), -0.4f};
-                p = frame(f5, day, c, set, true, n + 9000);
-            }
-            t = truth(day, c);
-            std::printf("sun turning %.4f energy %.4f\n", rmse(p, t), mean(p) / mean(t));
-            show(tag + "sun", p, kW), show(tag + "sun_t", t, kW);
-        }
+        for (std::size_t i = 0; i < a.color().size(); ++i)
+            ASSERT_EQ(std::memcmp(&a.color()[i], &b.color()[i], sizeof(Vec4)), 0) << n << ' ' << i;
+    }
+    // The same stage of each vector set, over the same planes.
+    const FilmPlanes& p = a.planes();
+    std::vector<float> first;
+    for (const FilmVectors v : {FilmVectors::portable, FilmVectors::avx2, FilmVectors::avx512}) {
+        if (v > best_film_vectors()) continue;
+        film_stages(v).stages[u32(FilmStep::respond)](p, a.state(), 0, 0, p.height);
+        film_stages(v).stages[u32(FilmStep::filter)](p, a.state(), 0, 0, p.height);
+        std::vector<float> row;
+        for (u32 y = 0; y < p.height; ++y)
+            row.insert(row.end(), p.even.r + framed_at(p, 0, i32(y)), p.even.r + framed_at(p, 101, i32(y)));
+        if (first.empty()) first = row;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            ASSERT_NEAR(row[i], first[i], 1e-3f * (1 + std::fabs(first[i]))) << u32(v);
     }
 }
 

@@ -98,12 +98,12 @@ VX_HD void respond_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
             if (fresh.r[j] >= 0) {
                 const Vec4 now{fresh.r[j], fresh.g[j], fresh.b[j], 0};
                 const float w = fast.w;
-                fast = toward(fast, now, 0.4f * change);
+                fast = toward(fast, now, 0.5f * change);
                 fast.w = w;
             }
             const float length = light.w, l = luminance(fast.x, fast.y, fast.z);
             light = toward(light, fast, change);
-            light.w = lerp(length, smaller(length, 2.5f), change);
+            light.w = lerp(length, smaller(length, 1.0f), change);
             fast.w = lerp(fast.w, l * l + around, change);
             air.w = lerp(air.w, l, change);
             p.next.light[i] = light;

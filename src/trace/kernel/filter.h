@@ -181,7 +181,7 @@ VX_HD void filter_light(const FilmPlanes& p, const Framed4& from, const Framed4&
             const float qr = from.r[q], qg = from.g[q], qb = from.b[q], qv = from.v[q];
             const float off = std::fabs(s.depth - own.depth - sx * float(dx) - sy * float(dy)) * own_scale;
             const float unlike = std::fabs(luminance(qr, qg, qb) - l0);
-            const float light = unlike * unlike / (9 * (own_variance + qv) + 1e-12f);
+            const float light = unlike * unlike / (5 * (own_variance + qv) + 1e-12f);
             const float n = power_32(own.nx * s.nx + own.ny * s.ny + own.nz * s.nz);
             const float like = spline_weight(dx) * spline_weight(dy) * n * falloff(off + light);
             const float w = qv >= 0 ? like : 0.0f;

@@ -61,6 +61,46 @@ VX_HD void mix_in(Mix& m, const FilmHistory& h, u32 i, float w) {
     m.air = plus(m.air, h.air[i], w);
     m.weight += w;
 }
+// The earlier picture between pixels: Catmull-Rom, which keeps it sharp where a bilinear lookup blurs a little each
+// frame.
+VX_HD Vec4 sharp_lookup(const Vec4* picture, u32 width, u32 height, float x, float y) {
+    const i32 x0 = i32(std::floor(x)), y0 = i32(std::floor(y));
+    const float fx = x - float(x0), fy = y - float(y0);
+    const auto weights = [](float t, float* w) {
+        w[0] = t * (-0.5f + t * (1 - 0.5f * t));
+        w[1] = 1 + t * t * (-2.5f + 1.5f * t);
+        w[2] = t * (0.5f + t * (2 - 1.5f * t));
+        w[3] = t * t * (-0.5f + 0.5f * t);
+    };
+    float wx[4], wy[4];
+    weights(fx, wx);
+    weights(fy, wy);
+    Vec4 sum;
+    for (i32 dy = 0; dy < 4; ++dy) {
+        const i32 qy = y0 + dy - 1, cy = qy < 0 ? 0 : qy >= i32(height) ? i32(height) - 1 : qy;
+        const Vec4* row = picture + u64(u32(cy)) * width;
+        Vec4 across;
+        if (x0 >= 1 && x0 + 2 < i32(width)) {
+            const Vec4* at = row + (x0 - 1);
+            across = plus(plus(plus(scaled(at[0], wx[0]), at[1], wx[1]), at[2], wx[2]), at[3], wx[3]);
+        } else {
+            for (i32 dx = 0; dx < 4; ++dx) {
+                const i32 qx = x0 + dx - 1, cx = qx < 0 ? 0 : qx >= i32(width) ? i32(width) - 1 : qx;
+                across = plus(across, row[cx], wx[dx]);
+            }
+        }
+        sum = plus(sum, across, wy[dy]);
+    }
+    return {larger(0, sum.x), larger(0, sum.y), larger(0, sum.z), sum.w};
+}
+
+VX_HD float least_of(float a, float b, float c, float d) {
+    return smaller(smaller(a, b), smaller(c, d));
+}
+VX_HD float most_of(float a, float b, float c, float d) {
+    return larger(larger(a, b), larger(c, d));
+}
+
 // The mean of the frame before around the place; weight 0: it was not seen.
 VX_HD Mix look_back(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) {
     Mix m;
@@ -79,6 +119,8 @@ VX_HD Mix look_back(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) {
         if (w > 0) w *= same_surface(p, x0 + dx, y0 + dy, own, e.depth, tolerance, surface);
         if (w > 0) mix_in(m, p.past, level_at(p, x0 + dx, y0 + dy), w);
     }
+    const bool between = fx > 0 || fy > 0;
+    const bool whole = m.weight > 0.999f;
     float most = kLongest;
     if (m.weight < 0.02f) { // around it, then: silhouettes under jitter
         m = Mix{};
@@ -98,6 +140,27 @@ VX_HD Mix look_back(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) {
     m.light = scaled(m.light, scale);
     m.fast = scaled(m.fast, scale);
     m.air = scaled(m.air, scale);
+    if (between && whole) {
+        // Where the surface goes on all around, the sharper lookup, held between what it lies between.
+        bool on = true;
+        for (i32 k = 0; k < 4; ++k) {
+            const i32 tx = k == 0   ? x0 - 1
+                           : k == 1 ? x0 + 2
+                                    : x0 + k % 2,
+                      ty = k == 2   ? y0 - 1
+                           : k == 3 ? y0 + 2
+                                    : y0 + k;
+            on = on && same_surface(p, tx, ty, own, e.depth, tolerance + slope, surface) > 0;
+        }
+        if (on) {
+            const Vec4* h = p.past.light + level_at(p, x0, y0);
+            const Vec4 a = h[0], b = h[1], c = h[p.width], d = h[p.width + 1];
+            const Vec4 sharp = sharp_lookup(p.past.light, p.width, p.height, e.x, e.y);
+            m.light.x = clamp(sharp.x, least_of(a.x, b.x, c.x, d.x), most_of(a.x, b.x, c.x, d.x));
+            m.light.y = clamp(sharp.y, least_of(a.y, b.y, c.y, d.y), most_of(a.y, b.y, c.y, d.y));
+            m.light.z = clamp(sharp.z, least_of(a.z, b.z, c.z, d.z), most_of(a.z, b.z, c.z, d.z));
+        }
+    }
     m.light.w = smaller(m.light.w, most);
     return m;
 }

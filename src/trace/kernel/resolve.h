@@ -1,8 +1,8 @@
 // The film's last stages: light on albedo, antialiasing in time, the plain mean. Kernel-safe.
 #pragma once
 
-#include "trace/kernel/change.h"
 #include "trace/kernel/film.h"
+#include "trace/kernel/reproject.h"
 
 namespace vitrail::trace {
 
@@ -59,59 +59,26 @@ VX_HD Vec3 unsqueezed(Vec3 c) {
     return rgb * (1 / larger(1e-4f, 1 - luminance(rgb)));
 }
 
-// The earlier picture between pixels: Catmull-Rom, which keeps it sharp where a bilinear lookup blurs a little each
-// frame.
-VX_HD Vec4 sharp_lookup(const Vec4* picture, u32 width, u32 height, float x, float y) {
-    const i32 x0 = i32(std::floor(x)), y0 = i32(std::floor(y));
-    const float fx = x - float(x0), fy = y - float(y0);
-    const auto weights = [](float t, float* w) {
-        w[0] = t * (-0.5f + t * (1 - 0.5f * t));
-        w[1] = 1 + t * t * (-2.5f + 1.5f * t);
-        w[2] = t * (0.5f + t * (2 - 1.5f * t));
-        w[3] = t * t * (-0.5f + 0.5f * t);
-    };
-    float wx[4], wy[4];
-    weights(fx, wx);
-    weights(fy, wy);
-    Vec4 sum;
-    for (i32 dy = 0; dy < 4; ++dy) {
-        const i32 qy = y0 + dy - 1, cy = qy < 0 ? 0 : qy >= i32(height) ? i32(height) - 1 : qy;
-        const Vec4* row = picture + u64(u32(cy)) * width;
-        Vec4 across;
-        if (x0 >= 1 && x0 + 2 < i32(width)) {
-            const Vec4* at = row + (x0 - 1);
-            across = plus(plus(plus(scaled(at[0], wx[0]), at[1], wx[1]), at[2], wx[2]), at[3], wx[3]);
-        } else {
-            for (i32 dx = 0; dx < 4; ++dx) {
-                const i32 qx = x0 + dx - 1, cx = qx < 0 ? 0 : qx >= i32(width) ? i32(width) - 1 : qx;
-                across = plus(across, row[cx], wx[dx]);
-            }
-        }
-        sum = plus(sum, across, wy[dy]);
-    }
-    return {larger(0, sum.x), larger(0, sum.y), larger(0, sum.z), sum.w};
-}
-
 // Antialiasing in time, and the plain mean as it becomes better than the filtered picture.
 VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) {
     const u32 i = level_at(p, x, y);
     const Vec4 now = p.color[i], own = p.merged[i];
     Vec4 sum, squares;
-    const i32 left = x > 0 ? -1 : 0, right = x + 1 < i32(p.width) ? 1 : 0, up = y > 0 ? -1 : 0,
-              down = y + 1 < i32(p.height) ? 1 : 0;
-    float nearest = own.w;
-    i32 nx = x, ny = y;
-    for (i32 dy = up; dy <= down; ++dy) {
-        const Vec4* row = p.merged + i64(i) + i64(dy) * p.width;
-        for (i32 dx = left; dx <= right; ++dx) {
-            const Vec4 c = row[dx];
-            sum = plus(sum, c, 1);
-            squares = plus(squares, times(c, c), 1);
-            if (c.w > nearest * 1.02f)
-                nearest = c.w, nx = x + dx, ny = y + dy; // silhouettes move with what is in front
-        }
+    const i32 left = x > 0 ? -1 : 0, right = x + 1 < i32(p.width) ? 1 : 0;
+    const i32 columns[3] = {left, 0, right}, rows[3] = {y > 0 ? -1 : 0, 0, y + 1 < i32(p.height) ? 1 : 0};
+    float nearest = own.w * 1.02f;
+    i32 nearest_at = 4;
+    VX_UNROLL
+    for (i32 k = 0; k < 9; ++k) { // at borders some count twice
+        const Vec4 c = p.merged[i64(i) + i64(rows[k / 3]) * p.width + columns[k % 3]];
+        sum = plus(sum, c, 1);
+        squares = plus(squares, times(c, c), 1);
+        nearest_at = c.w > nearest ? k : nearest_at;
+        nearest = larger(nearest, c.w);
     }
-    const float count = float((right - left + 1) * (down - up + 1));
+    // Silhouettes move with what is in front.
+    const i32 nx = x + columns[nearest_at % 3], ny = y + rows[nearest_at / 3];
+    if (nearest_at == 4) nearest = own.w;
     Vec4 out = now;
     const Earlier e = f.history ? earlier_place(f, float(nx), float(ny), nearest) : Earlier{};
     const float ex = e.x + float(x - nx), ey = e.y + float(y - ny);
@@ -120,7 +87,7 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
         Vec4 past =
             whole ? p.past.color[level_at(p, i32(ex), i32(ey))] : sharp_lookup(p.past.color, p.width, p.height, ex, ey);
         // Held to what the neighborhood's colors allow (Salvi 2016), wider the longer the view rests.
-        const float scale = 1 / count, calm = larger(0, float(f.rested) - 20), wide = 1.25f + 0.25f * calm;
+        const float scale = 1.0f / 9, calm = larger(0, float(f.rested) - 20), wide = 1.25f + 0.25f * calm;
         const Vec3 mean{sum.x * scale, sum.y * scale, sum.z * scale};
         const Vec3 v = Vec3{squares.x, squares.y, squares.z} * scale - mean * mean;
         const Vec3 d{wide * std::sqrt(larger(0, v.x)) + 1e-5f, wide * std::sqrt(larger(0, v.y)) + 1e-5f,
@@ -131,8 +98,14 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
             const Vec3 held = unsqueezed(mean + from * (1 / over));
             past = {held.x, held.y, held.z, 0};
         }
-        const float part = 1 / clamp(calm, 10, 512);
-        out = toward(past, now, lerp(part, larger(part, 0.4f), change_at(p, x, y)));
+        // What was only just uncovered, or lit anew, has no picture to keep. Under jitter single pixels at silhouettes
+        // seem so too, but not all around.
+        const Vec4* h = p.next.light + i;
+        const i64 across = x > 1 && x + 2 < i32(p.width) ? 2 : 0,
+                  down = y > 1 && y + 2 < i32(p.height) ? 2 * p.width : 0;
+        const float known = larger(h[0].w, larger(larger(h[-across].w, h[across].w), larger(h[-down].w, h[down].w)));
+        const float part = larger(1 / clamp(calm, 10, 512), 1 / (1 + known));
+        out = toward(past, now, part);
     }
     const float distance = p.albedo[i].w;
     out.w = distance;
