@@ -30,27 +30,31 @@ struct FilmRows {
                 plain_pixel(p, i32(x), i32(y));
     }
     static void slope(const FilmPlanes& p, const FilmFrame&, u32, u32 y0, u32 y1) {
+        const i32 end = wide(p);
         for (u32 y = y0; y < y1; ++y) {
-            VX_ROW for (i32 x = 0; x < wide(p); ++x) find_slope(p, x, i32(y));
+            VX_ROW for (i32 x = 0; x < end; ++x) find_slope(p, x, i32(y));
         }
     }
     static void spikes(const FilmPlanes& p, const FilmFrame& f, u32, u32 y0, u32 y1) {
         const float most = f.spike;
         const i32 s = step(f);
+        const i32 end = wide(p);
         for (u32 y = y0; y < y1; ++y) {
-            VX_ROW for (i32 x = 0; x < wide(p); ++x) find_spike(p, most, s, x, i32(y));
+            VX_ROW for (i32 x = 0; x < end; ++x) find_spike(p, most, s, x, i32(y));
         }
     }
     static void spread(const FilmPlanes& p, const FilmFrame& f, u32, u32 y0, u32 y1) {
         const i32 s = step(f);
+        const i32 end = wide(p);
         for (u32 y = y0; y < y1; ++y) {
-            VX_ROW for (i32 x = 0; x < wide(p); ++x) spread_spikes(p, s, x, i32(y));
+            VX_ROW for (i32 x = 0; x < end; ++x) spread_spikes(p, s, x, i32(y));
         }
     }
     static void fill(const FilmPlanes& p, const FilmFrame& f, u32, u32 y0, u32 y1) {
         const Framed3 from = fresh_light(p, f);
+        const i32 end = wide(p);
         for (u32 y = y0; y < y1; ++y) {
-            VX_ROW for (i32 x = 0; x < wide(p); ++x) fill_gap(p, from, x, i32(y));
+            VX_ROW for (i32 x = 0; x < end; ++x) fill_gap(p, from, x, i32(y));
         }
     }
     static void reproject(const FilmPlanes& p, const FilmFrame& f, u32, u32 y0, u32 y1) {
@@ -76,15 +80,17 @@ struct FilmRows {
     static void filter(const FilmPlanes& p, const FilmFrame&, u32 level, u32 y0, u32 y1) {
         const Framed4 from = level % 2 ? p.even : p.odd, to = level % 2 ? p.odd : p.even;
         const i32 s = 1 << level;
+        const i32 end = wide(p);
         for (u32 y = y0; y < y1; ++y) {
-            VX_ROW for (i32 x = 0; x < wide(p); ++x) filter_light(p, from, to, s, x, i32(y));
+            VX_ROW for (i32 x = 0; x < end; ++x) filter_light(p, from, to, s, x, i32(y));
         }
     }
     static void air(const FilmPlanes& p, const FilmFrame&, u32 level, u32 y0, u32 y1) {
         const Framed3 from = level % 2 ? p.air_even : p.air_odd, to = level % 2 ? p.air_odd : p.air_even;
         const i32 s = 1 << level;
+        const i32 end = wide(p);
         for (u32 y = y0; y < y1; ++y) {
-            VX_ROW for (i32 x = 0; x < wide(p); ++x) filter_air(p, from, to, s, x, i32(y));
+            VX_ROW for (i32 x = 0; x < end; ++x) filter_air(p, from, to, s, x, i32(y));
         }
     }
     static void merge(const FilmPlanes& p, const FilmFrame&, u32, u32 y0, u32 y1) {

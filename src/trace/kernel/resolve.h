@@ -64,20 +64,27 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
     const u32 i = level_at(p, x, y);
     const Vec4 now = p.color[i], own = p.merged[i];
     Vec4 sum, squares;
-    const i32 left = x > 0 ? -1 : 0, right = x + 1 < i32(p.width) ? 1 : 0;
-    const i32 columns[3] = {left, 0, right}, rows[3] = {y > 0 ? -1 : 0, 0, y + 1 < i32(p.height) ? 1 : 0};
+    const i32 left = x > 0 ? x - 1 : 0, right = x + 1 < i32(p.width) ? x + 1 : x, up = y > 0 ? y - 1 : 0,
+              below = y + 1 < i32(p.height) ? y + 1 : y;
     float nearest = own.w * 1.02f;
     i32 nearest_at = 4;
     VX_UNROLL
     for (i32 k = 0; k < 9; ++k) { // at borders some count twice
-        const Vec4 c = p.merged[i64(i) + i64(rows[k / 3]) * p.width + columns[k % 3]];
+        const Vec4 c = p.merged[level_at(p,
+                                         k % 3 == 0   ? left
+                                         : k % 3 == 1 ? x
+                                                      : right,
+                                         k / 3 == 0   ? up
+                                         : k / 3 == 1 ? y
+                                                      : below)];
         sum = plus(sum, c, 1);
         squares = plus(squares, times(c, c), 1);
         nearest_at = c.w > nearest ? k : nearest_at;
         nearest = larger(nearest, c.w);
     }
     // Silhouettes move with what is in front.
-    const i32 nx = x + columns[nearest_at % 3], ny = y + rows[nearest_at / 3];
+    const i32 column = nearest_at % 3, row = nearest_at / 3;
+    const i32 nx = column == 0 ? left : column == 1 ? x : right, ny = row == 0 ? up : row == 1 ? y : below;
     if (nearest_at == 4) nearest = own.w;
     Vec4 out = now;
     const Earlier e = f.history ? earlier_place(f, float(nx), float(ny), nearest) : Earlier{};
