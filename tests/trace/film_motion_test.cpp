@@ -71,12 +71,12 @@ TEST_P(FilmMotion, LeavesNoTrail) {
                 for (i32 k = 0; k < 9; ++k) {
                     const u32 q = (y + u32(k / 3) - 1) * kW + x + u32(k % 3) - 1;
                     one = one && planes.now.surface[q] == planes.now.surface[y * kW + x];
-                    least = std::min(least, luminance(right[q])), most = std::max(most, luminance(right[q]));
+                    least = std::min(least, luma(right[q])), most = std::max(most, luma(right[q]));
                 }
                 const std::size_t i = y * kW + x;
                 if (!one || planes.albedo[i].w == 0) continue;
                 ++inner;
-                const float l = luminance(p[i]), slack = 0.15f * most;
+                const float l = luma(p[i]), slack = 0.15f * most;
                 wrong += l < least - slack || l > most + slack;
             }
         ASSERT_GT(inner, 2'000u);
@@ -90,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, FilmMotion, testing::Values(Way::walk, Way::pan, 
 double progress(const Picture& p, const Picture& from, const Picture& to) {
     double got = 0, all = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
-        const double d = double(luminance(to[i]) - luminance(from[i]));
-        got += double(luminance(p[i]) - luminance(from[i])) * (d < 0 ? -1 : 1), all += std::fabs(d);
+        const double d = double(luma(to[i]) - luma(from[i]));
+        got += double(luma(p[i]) - luma(from[i])) * (d < 0 ? -1 : 1), all += std::fabs(d);
     }
     return got / all;
 }

@@ -138,11 +138,11 @@ VX_HD Vec4 toward(Vec4 a, Vec4 b, float t) {
 }
 #endif
 
-VX_HD float luminance(float r, float g, float b) { // of linear sRGB (Rec. 709)
+VX_HD float luma(float r, float g, float b) { // of linear sRGB (Rec. 709)
     return 0.2126f * r + 0.7152f * g + 0.0722f * b;
 }
-VX_HD float luminance(Vec3 c) {
-    return luminance(c.x, c.y, c.z);
+VX_HD float luma(Vec3 c) {
+    return luma(c.x, c.y, c.z);
 }
 
 } // namespace vitrail::trace
