@@ -26,13 +26,15 @@ const std::vector<u8>& cloud_noise();
 VX_HD float cloud_noise_in(const u8* noise, u32 channel, Vec2 at, u32 level) {
     const u32 side = CloudNoise::kSide >> level, mask = side - 1;
     const float x = at.x * float(side) - 0.5f, y = at.y * float(side) - 0.5f;
-    const float ix = std::floor(x), iy = std::floor(y), fx = x - ix, fy = y - iy;
-    const u32 x0 = u32(i32(ix)) & mask, x1 = (x0 + 1) & mask, y0 = u32(i32(iy)) & mask, y1 = (y0 + 1) & mask;
+    i32 ix = i32(x), iy = i32(y); // down to whole numbers, without a call of floor
+    ix -= float(ix) > x, iy -= float(iy) > y;
+    const float fx = x - float(ix), fy = y - float(iy);
+    const u32 x0 = u32(ix) & mask, x1 = (x0 + 1) & mask, y0 = u32(iy) & mask, y1 = (y0 + 1) & mask;
     const u8* p = noise + 2 * CloudNoise::level(level) + channel;
-    const u8 *upper = p + 2 * y0 * side, *lower = p + 2 * y1 * side;
-    return lerp(lerp(float(upper[2 * x0]), float(upper[2 * x1]), fx),
-                lerp(float(lower[2 * x0]), float(lower[2 * x1]), fx), fy) *
-           (1.0f / 255);
+    const u32 upper = y0 * side, lower = y1 * side;
+    const float a = float(i32(p[2 * (upper + x0)])), b = float(i32(p[2 * (upper + x1)])),
+                c = float(i32(p[2 * (lower + x0)])), d = float(i32(p[2 * (lower + x1)]));
+    return lerp(lerp(a, b, fx), lerp(c, d, fx), fy) * (1.0f / 255);
 }
 VX_HD float cloud_noise_at(const u8* noise, u32 channel, Vec2 at, float level) {
     const float l = clamp(level, 0.0f, float(CloudNoise::kLevels - 1));

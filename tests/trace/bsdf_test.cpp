@@ -127,7 +127,7 @@ TEST(Bsdf, PdfIntegratesToTheChanceOfASample) {
         for (float cosine : {0.2f, 0.7f}) {
             const Vec3 eye = at_cosine(c.point, cosine);
             double integral = 0, value = 0, chance = 0, weight = 0;
-            over_sphere(c.point, 400, [&](Vec3 d, double solid) {
+            over_sphere(c.point, 320, [&](Vec3 d, double solid) {
                 const BsdfValue v = bsdf_at(c.point, eye, d);
                 integral += double(v.pdf) * solid, value += double(v.value.x) * solid;
                 ASSERT_EQ(eval_bsdf(c.point, eye, d).x, v.value.x);
@@ -174,7 +174,7 @@ TEST(Bsdf, SamplesFollowTheirPdf) {
                 EXPECT_EQ(b.through, dot(b.dir, c.point.face) < 0) << c.name;
             }
             if (c.point.roughness < 0.25f && !is_sharp(c.point)) continue; // the grid below is too coarse
-            over_sphere(c.point, 480,
+            over_sphere(c.point, 360,
                         [&](Vec3 d, double solid) { wanted[bin(d)] += double(pdf_bsdf(c.point, eye, d)) * solid; });
             for (u32 i = 0; i < found.size(); ++i)
                 EXPECT_NEAR(found[i], wanted[i], 0.004 + 0.03 * wanted[i]) << c.name << ' ' << cosine << " bin " << i;

@@ -14,6 +14,15 @@
 
 namespace vitrail::trace {
 
+// 1 - exp(-x) and its inverse, x >= 0, exact where small.
+VX_HD float taken_by(float depth) {
+    return depth < 1e-2f ? depth * (1 - depth * (0.5f - depth * (1.0f / 6))) : 1 - std::exp(-depth);
+}
+VX_HD float depth_of(float taken) {
+    return taken < 1e-2f ? taken * (1 + taken * (0.5f + taken * (1.0f / 3)))
+                         : -std::log(1 - (taken < 0.9999999f ? taken : 0.9999999f));
+}
+
 struct AirStretch {
     scene::Mist mist;
     float above = 0, rise = 0, length = 0; // blocks over the sea at its start; of the direction; blocks
@@ -26,8 +35,8 @@ VX_HD AirStretch air_stretch(const SkyView& sky, Place from, Vec3 dir, float len
                  float(from.cell.y - sky.sea_level) + from.at.y,
                  dir.y,
                  length < kFar ? length : sky.view_distance};
-    a.haze_takes = -std::expm1(-a.mist.haze * a.length);
-    a.mist_takes = -std::expm1(-a.mist.mist * a.length * scene::mean_mist_density(a.mist, a.above, a.rise, a.length));
+    a.haze_takes = taken_by(a.mist.haze * a.length);
+    a.mist_takes = taken_by(a.mist.mist * a.length * scene::mean_mist_density(a.mist, a.above, a.rise, a.length));
     return a;
 }
 // Extinction a block after t blocks.
@@ -49,8 +58,8 @@ VX_HD float mist_way(const AirStretch& a, float depth) {
     const float m = a.mist.mist, h = a.mist.height;
     const auto thinning = [&](float e, float d) {
         const float even = d / (m * e), k = even * a.rise / h;
-        if (std::abs(k) < 1e-3f) return even * (1 + k * (0.5f + k * (1.0f / 3)));
-        return k < 1 ? even * (-std::log1p(-k) / k) : a.length;
+        if (std::abs(k) < 1e-2f) return even * (1 + k * (0.5f + k * (1.0f / 3 + k * 0.25f)));
+        return k < 1 ? even * (-std::log(1 - k) / k) : a.length;
     };
     if (a.above < 0) {
         const float flat = a.rise > 0 ? m * -a.above / a.rise : kFar;
@@ -75,9 +84,9 @@ VX_HD AirPoint sample_air_point(const AirStretch& a, float u) {
     AirPoint p;
     const float which = u * both;
     if (which < a.haze_takes) {
-        p.t = -std::log1p(-which) / a.mist.haze;
+        p.t = depth_of(which) / a.mist.haze;
     } else {
-        p.t = mist_way(a, -std::log1p(-clamp(which - a.haze_takes, 0.0f, a.mist_takes)));
+        p.t = mist_way(a, depth_of(clamp(which - a.haze_takes, 0.0f, a.mist_takes)));
     }
     p.t = clamp(p.t, 0.0f, a.length);
     const float mist = a.mist.mist * scene::mist_density(a.mist, a.above + a.rise * p.t);
@@ -132,7 +141,7 @@ VX_HD LiquidPoint sample_liquid_point(Vec3 extinction, Vec3 scattering, float le
     const float rate = k == 0 ? e.x : k == 1 ? e.y : e.z, last = k == 0 ? end.x : k == 1 ? end.y : end.z;
     LiquidPoint p;
     if (!(rate > 1e-6f) || !(last < 1)) return p;
-    p.t = -std::log1p(-(color - float(k)) * (1 - last)) / rate;
+    p.t = depth_of((color - float(k)) * (1 - last)) / rate;
     if (p.t > length) p.t = length;
     const Vec3 left = liquid_passes(e, p.t);
     const auto law = [](float r, float l, float at_end) { return at_end < 1 ? r * l / (1 - at_end) : 0.0f; };

@@ -23,7 +23,7 @@ VX_HD float cloud_shape(const u8* noise, Vec2 at, float level) {
     const float x = at.x * kCloudCoarse, y = at.y * kCloudCoarse;
     const float wide = scene::cloud_noise_at(noise, 0, {x, y}, level);
     if (wide <= 0.42f) return 0; // details add 0.05 at most
-    const float more = scene::cloud_noise_at(noise, 0, {x * 3 + 0.31f, y * 3 + 0.31f}, level + 1.6f);
+    const float more = scene::cloud_noise_at(noise, 0, {x * 3 + 0.31f, y * 3 + 0.31f}, level + 2);
     return smoothstep(0.47f, 0.74f, wide + 0.10f * (more - 0.5f));
 }
 
@@ -42,7 +42,7 @@ VX_HD CloudsSeen clouds_seen(const SkyView& sky, Vec3 d, float edge, float dithe
     if (d.y < 0.005f || !sky.clouds || !sky.cloud_noise) return {};
     const float above = sky.cloud_above, near = way_to_shell(d.y, above);
     const float haze = std::exp(-near * near * (1.0f / (3600.0f * 3600.0f))) * smoothstep(0.005f, 0.06f, d.y);
-    if (haze < 1e-4f) return {};
+    if (haze < 1e-3f) return {};
     const float wide = near * edge / (d.y > 0.08f ? d.y : 0.08f) * 256 * kCloudCoarse;
     const float level = wide > 1 ? std::log2(wide) : 0.0f;
     const Vec3 towards = sky.cloud_direction;

@@ -21,7 +21,7 @@ vec2 cloud_origin() {
 // 0..1: how much cloud stands over that place, before details.
 float cloud_shape(sampler2D noise, vec2 at, float lod) {
     float wide = textureLod(noise, at * kCoarse, lod).r;
-    return smoothstep(0.47, 0.74, wide + 0.10 * (textureLod(noise, at * kCoarse * 3.0 + 0.31, lod + 1.6).r - 0.5));
+    return smoothstep(0.47, 0.74, wide + 0.10 * (textureLod(noise, at * kCoarse * 3.0 + 0.31, lod + 2.0).r - 0.5));
 }
 
 // Light scattered towards the eye: forward with a silver lining, a little back (two lobes of Henyey and Greenstein 1941).
