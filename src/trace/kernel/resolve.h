@@ -111,7 +111,7 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
         const i64 across = x > 1 && x + 2 < i32(p.width) ? 2 : 0,
                   down = y > 1 && y + 2 < i32(p.height) ? 2 * p.width : 0;
         const float known = larger(h[0].w, larger(larger(h[-across].w, h[across].w), larger(h[-down].w, h[down].w)));
-        const float part = larger(1 / clamp(calm, 10, 512), 1 / (1 + known));
+        const float part = larger(1 / clamp(calm, f.rest ? 10.0f : 6.0f, 512), 1 / (1 + known));
         out = toward(past, now, part);
     }
     const float distance = p.albedo[i].w;
