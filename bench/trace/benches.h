@@ -6,5 +6,6 @@
 namespace vitrail {
 
 void register_denoise_benches(bench::Suite& suite);
+void register_ray_benches(bench::Suite& suite);
 
 } // namespace vitrail

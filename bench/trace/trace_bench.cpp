@@ -2,5 +2,6 @@
 
 void register_trace_benches(vitrail::bench::Suite& suite);
 void register_trace_benches(vitrail::bench::Suite& suite) {
+    vitrail::register_ray_benches(suite);
     vitrail::register_denoise_benches(suite);
 }

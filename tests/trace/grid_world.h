@@ -99,7 +99,7 @@ public:
             items.push_back({chunk_pos(i % 4, i / 16, i / 4 % 4), &blocks[std::size_t(i)]});
         grid.set_chunks(items, pool);
     }
-    SceneView scene() const {
+    SceneView scene() {
         SceneView s;
         content.fill(s);
         s.grid = grid.view();

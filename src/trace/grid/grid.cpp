@@ -69,6 +69,8 @@ void Grid::clear() {
     palettes_.fill(palettes_.take(1), {&air, 1});
     std::vector<u32> plain(kTintWords, 0xffffffffu);
     tints_.fill(tints_.take(kTintWords), plain);
+    skips_.reset(shape_.bits_x, shape_.bits_y, shape_.bits_z);
+    stale_ = true;
     for (u32 i = 0; i < 2; ++i)
         areas_dirty_[i].add(0, areas_[i].size() * sizeof(u64));
     chunks_dirty_.add(0, chunks_.size() * sizeof(GridChunk));
@@ -122,7 +124,77 @@ bool Grid::center_on(ChunkPos chunk) {
             }
         }
     first_ = to;
+    stale_ = true;
+    // Slots of the layers that came in meant other chunks.
+    const BrickBox window{
+        {to.x * 4, to.y * 4, to.z * 4},
+        {(to.x + (1 << shape_.bits_x)) * 4, (to.y + (1 << shape_.bits_y)) * 4, (to.z + (1 << shape_.bits_z)) * 4}};
+    const auto enter = [&](i32 was, i32 now, u32 bits, i32 IVec3::*axis) {
+        if (was == now) return;
+        BrickBox box = window;
+        const i32 size = 1 << bits;
+        if (now > was)
+            box.least.*axis = std::max(now, was + size) * 4;
+        else
+            box.most.*axis = std::min(now + size, was) * 4;
+        skips_.change(box);
+    };
+    enter(from.x, to.x, shape_.bits_x, &IVec3::x);
+    enter(from.y, to.y, shape_.bits_y, &IVec3::y);
+    enter(from.z, to.z, shape_.bits_z, &IVec3::z);
     return true;
+}
+
+// Bricks of a chunk that stop rays through air, as they were and as they are.
+void Grid::note_bricks(ChunkPos at, u64 before, u64 after) {
+    stale_ = true;
+    skips_.touch(at);
+    const u64 changed = before ^ after;
+    if (changed == 0) return;
+    IVec3 least{3, 3, 3}, most{0, 0, 0};
+    for (i32 b = 0; b < 64; ++b) {
+        if (!(changed >> b & 1)) continue;
+        const i32 x = b & 3, z = b >> 2 & 3, y = b >> 4;
+        least = {std::min(least.x, x), std::min(least.y, y), std::min(least.z, z)};
+        most = {std::max(most.x, x), std::max(most.y, y), std::max(most.z, z)};
+    }
+    skips_.change({{at.x * 4 + least.x, at.y * 4 + least.y, at.z * 4 + least.z},
+                   {at.x * 4 + most.x + 1, at.y * 4 + most.y + 1, at.z * 4 + most.z + 1}});
+}
+
+void Grid::refresh(ThreadPool* pool) {
+    if (!stale_) return;
+    stale_ = false;
+    const GridView g = plain_view();
+    skips_.refresh(g, pool);
+    // Where anything is.
+    IVec3 least{1 << 28, 1 << 28, 1 << 28}, most{-(1 << 28), -(1 << 28), -(1 << 28)};
+    for (i32 y = 0; y < 1 << (shape_.bits_y - 2); ++y)
+        for (i32 z = 0; z < 1 << (shape_.bits_z - 2); ++z)
+            for (i32 x = 0; x < 1 << (shape_.bits_x - 2); ++x) {
+                const IVec3 at{first_.x + x * 4, first_.y + y * 4, first_.z + z * 4};
+                const u64 word = areas_[0][area_slot_of(g, at)];
+                if (word == 0) continue;
+                // Bits of an area: x | z << 2 | y << 4.
+                const auto bounds = [](u32 four, i32 from, i32& low, i32& high) {
+                    low = std::min(low, from + std::countr_zero(four));
+                    high = std::max(high, from + 32 - std::countl_zero(four));
+                };
+                u32 xs = 0, ys = 0, zs = 0;
+                for (u32 i = 0; i < 4; ++i) {
+                    xs |= u32((word & 0x1111111111111111ull << i) != 0) << i;
+                    zs |= u32((word & 0x000F000F000F000Full << 4 * i) != 0) << i;
+                    ys |= u32((word >> 16 * i & 0xFFFF) != 0) << i;
+                }
+                bounds(xs, at.x, least.x, most.x);
+                bounds(ys, at.y, least.y, most.y);
+                bounds(zs, at.z, least.z, most.z);
+            }
+    const bool any = least.x < most.x;
+    least_ = any ? least : first_;
+    extent_[0] = any ? u32(most.x - least.x) : 0;
+    extent_[1] = any ? u32(most.y - least.y) : 0;
+    extent_[2] = any ? u32(most.z - least.z) : 0;
 }
 
 void Grid::prepare(const BlockStorage& blocks, Prepared& out) const {
@@ -163,7 +235,7 @@ void Grid::store_chunk(u32 at, const GridChunk& chunk) {
 }
 
 void Grid::refresh_area(ChunkPos at) {
-    const GridView g = view();
+    const GridView g = plain_view();
     const u32 area = area_slot_of(g, {at.x, at.y, at.z}), chunk = slot(at);
     const u32 bit = u32(at.x & 3) | u32(at.z & 3) << 2 | u32(at.y & 3) << 4;
     for (u32 set = 0; set < 2; ++set) {
@@ -204,7 +276,8 @@ void Grid::give_pieces(const GridChunk& chunk, u32 palette_size) {
 void Grid::commit(ChunkPos at, const BlockStorage& blocks, Prepared& p) {
     const u32 s = slot(at);
     GridChunk chunk = chunks_[s];
-    const u32 old_palette = palette_sizes_[s];
+    const u64 old_bricks = chunk.bricks[0];
+    const u32 old_palette = palette_sizes_[s], old_masks = chunk.masks[0];
 
     const LayerMask old_floor = floor_at(at);
     const bool wet = p.masks.water_floor != kDryLayer || p.masks.water_ceiling != kDryLayer;
@@ -243,6 +316,7 @@ void Grid::commit(ChunkPos at, const BlockStorage& blocks, Prepared& p) {
     if (old_palette == 0) ++held_count_;
     palette_sizes_[s] = u16(size);
     store_chunk(s, chunk);
+    if (old_bricks != chunk.bricks[0] || old_masks != chunk.masks[0]) note_bricks(at, old_bricks, chunk.bricks[0]);
     refresh_area(at);
     if (floor_at(at) != old_floor) refresh_water(below(at));
 }
@@ -261,6 +335,7 @@ void Grid::drop(ChunkPos at) {
     palette_sizes_[s] = 0;
     --held_count_;
     store_chunk(s, absent_chunk());
+    note_bricks(at, chunk.bricks[0], 0);
     refresh_area(at);
     if (floor) refresh_water(below(at));
 }
@@ -397,7 +472,18 @@ void Grid::remake_all() {
             }
 }
 
+GridView Grid::view() {
+    refresh();
+    return plain_view();
+}
+
 GridView Grid::view() const {
+    GridView g = plain_view();
+    if (stale_) g.skips = nullptr;
+    return g;
+}
+
+GridView Grid::plain_view() const {
     GridView g;
     g.first = first_;
     g.bits_x = shape_.bits_x, g.bits_y = shape_.bits_y, g.bits_z = shape_.bits_z;
@@ -407,6 +493,9 @@ GridView Grid::view() const {
     g.palettes = palettes_.data();
     g.indices = indices_.data();
     g.tints = tints_.data();
+    g.skips = skips_.data();
+    g.least = least_;
+    g.extent_x = extent_[0], g.extent_y = extent_[1], g.extent_z = extent_[2];
     return g;
 }
 
@@ -427,6 +516,8 @@ std::span<const std::byte> Grid::buffer(GridBuffer which) const {
         return bytes(indices_.data(), indices_.size());
     case GridBuffer::tints:
         return bytes(tints_.data(), tints_.size());
+    case GridBuffer::skips:
+        return bytes(skips_.data(), skips_.size());
     }
     return {};
 }
@@ -447,6 +538,8 @@ std::span<const DirtyRanges::Range> Grid::dirty(GridBuffer which) const {
         return indices_.dirty.ranges();
     case GridBuffer::tints:
         return tints_.dirty.ranges();
+    case GridBuffer::skips:
+        return skips_.dirty.ranges();
     }
     return {};
 }
@@ -454,12 +547,13 @@ std::span<const DirtyRanges::Range> Grid::dirty(GridBuffer which) const {
 void Grid::clean() {
     areas_dirty_[0].clear(), areas_dirty_[1].clear(), chunks_dirty_.clear();
     masks_.dirty.clear(), indices_.dirty.clear(), palettes_.dirty.clear(), tints_.dirty.clear();
+    skips_.dirty.clear();
 }
 
 u64 Grid::memory_bytes() const {
     return areas_[0].size() * 16 + chunks_.size() * sizeof(GridChunk) + palette_sizes_.size() * 2 + masks_.bytes() +
-           indices_.bytes() + palettes_.bytes() + tints_.bytes() + edges_.size() * (sizeof(WaterEdges) + 32) +
-           classes_.size();
+           skips_.bytes() + indices_.bytes() + palettes_.bytes() + tints_.bytes() +
+           edges_.size() * (sizeof(WaterEdges) + 32) + classes_.size();
 }
 
 } // namespace vitrail::trace

@@ -6,13 +6,15 @@
 //     grid.center_on(player_chunk);             // chunks that leave the window are dropped
 //     grid.set_chunks(items, &pool);            // many at once, in parallel; or set_chunk
 //     grid.apply(changes);                      // a few microseconds a chunk
-//     scene.grid = grid.view();                 // pointers hold until the next change
+//     grid.refresh(&pool);                      // brings what follows from changes up to date; view() does it if need
+//     be scene.grid = grid.view();                 // pointers hold until the next change
 //
-// A device keeps a mirror of the buffers: `dirty` tells what changed since `clean` (a buffer that has grown says so by
-// its size). One thread uses it.
+// A device keeps a mirror of the buffers: after `refresh`, `dirty` tells what changed since `clean` (a buffer that has
+// grown says so by its size). One thread uses it.
 #pragma once
 
 #include "jobs/thread_pool.h"
+#include "trace/grid/brick_skips.h"
 #include "trace/grid/chunk_masks.h"
 #include "trace/grid/pool.h"
 #include "voxel/chunk.h"
@@ -27,8 +29,8 @@ struct GridShape {
 };
 
 // The arrays of a GridView, as a mirror copies them.
-enum class GridBuffer : u8 { areas_air, areas_water, chunks, masks, palettes, indices, tints };
-inline constexpr u32 kGridBuffers = 7;
+enum class GridBuffer : u8 { areas_air, areas_water, chunks, masks, palettes, indices, tints, skips };
+inline constexpr u32 kGridBuffers = 8;
 
 class Grid {
 public:
@@ -56,7 +58,9 @@ public:
     void apply(const ChangeSet& changes);
     void apply(const EditBatch& edits);
 
-    GridView view() const;
+    void refresh(ThreadPool* pool = nullptr);
+    GridView view();
+    GridView view() const; // without skips where they are out of date
     bool holds(ChunkPos chunk) const;
 
     std::span<const std::byte> buffer(GridBuffer which) const;
@@ -90,6 +94,8 @@ private:
     BlockStorage storage_of(u32 slot) const;
     void apply_by_chunk(std::span<const Edit> edits);
     void remake_all();
+    GridView plain_view() const;
+    void note_bricks(ChunkPos at, u64 before, u64 after);
 
     GridShape shape_;
     IVec3 first_;
@@ -109,6 +115,10 @@ private:
     std::unordered_map<u32, u64> tint_hashes_;       // by block
     std::unordered_map<u32, WaterEdges> edges_;      // by slot, where there is water
     u32 held_count_ = 0;
+    BrickSkips skips_;
+    IVec3 least_; // of chunks that stop rays through air, and how many on each axis
+    u32 extent_[3] = {0, 0, 0};
+    bool stale_ = true;
 };
 
 } // namespace vitrail::trace

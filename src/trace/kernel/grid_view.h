@@ -36,7 +36,22 @@ struct GridView {
     const u32* palettes = nullptr;
     const u64* indices = nullptr;
     const u32* tints = nullptr;
+    // By slot * 64 + brick: how far rays through air may step from there (brick_skip), or where the brick's mask is.
+    const u32* skips = nullptr;
+    // Chunks that stop rays through air lie in least .. least + extent - 1: a ray that is past them is out.
+    IVec3 least;
+    u32 extent_x = 0, extent_y = 0, extent_z = 0;
 };
+
+// A word of GridView::skips. A brick with a cell that stops rays through air: kBrickStops | its index in `masks`. Else
+// for each octant of directions (bit a: towards growing coordinates on axis a), in 3 bits, the side of the largest
+// empty cube of bricks that begins with this one and extends that way, less 1. Beyond the window all is empty.
+inline constexpr u32 kBrickStops = 1u << 31;
+inline constexpr u32 kSkipMost = 8; // bricks
+
+VX_HD u32 brick_skip(u32 word, u32 octant) { // bricks, 1..kSkipMost
+    return (word >> 3 * octant & 7) + 1;
+}
 
 inline constexpr u32 kTintWords = 108; // grass, foliage, water: 36 sRGB RGBA8 texels each (scene/tint_grid.h)
 

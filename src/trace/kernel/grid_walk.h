@@ -31,9 +31,8 @@ VX_HD i32 box_plane(i32 cell, i32 start, u32 bits, bool up) {
     return i32(((u32(cell >> bits) + (up ? 1u : 0u)) << bits) - u32(start));
 }
 
-// A ray outside of the window: moves it to the next of the window's planes. False: it never comes in.
-VX_HD bool approach_axis(u32 cell, u32 bits, bool up, bool still, i32 at, i32& plane) {
-    const u32 size = 16u << bits;
+// One axis of `approach`.
+VX_HD bool approach_axis(u32 cell, u32 size, bool up, bool still, i32 at, i32& plane) {
     if (cell < size) {
         plane = at + (up ? i32(size - cell) : -i32(cell));
         return true;
@@ -52,12 +51,14 @@ VX_HD bool in_window_cell(const GridView& g, IVec3 cell) {
            (u32(cell.z) - u32(g.first.z) * 16) >> (g.bits_z + 4) == 0;
 }
 
-VX_HD bool approach(const GridView& g, const Ray& ray, Walk& w) {
+// Outside of a range: moves to the range's next plane on some axis, or says that the ray never comes in. first, size:
+// cells. In range an axis' plane is where the ray goes out.
+VX_HD bool approach(IVec3 first, IVec3 size, const Ray& ray, Walk& w) {
     const IVec3 c = w.cell();
     IVec3 p;
-    if (!approach_axis(u32(c.x) - u32(g.first.x) * 16, g.bits_x, w.up & 1, w.ix > 1e100, w.x, p.x) ||
-        !approach_axis(u32(c.y) - u32(g.first.y) * 16, g.bits_y, w.up & 2, w.iy > 1e100, w.y, p.y) ||
-        !approach_axis(u32(c.z) - u32(g.first.z) * 16, g.bits_z, w.up & 4, w.iz > 1e100, w.z, p.z))
+    if (!approach_axis(u32(c.x) - u32(first.x), u32(size.x), w.up & 1, w.ix > 1e100, w.x, p.x) ||
+        !approach_axis(u32(c.y) - u32(first.y), u32(size.y), w.up & 2, w.iy > 1e100, w.y, p.y) ||
+        !approach_axis(u32(c.z) - u32(first.z), u32(size.z), w.up & 4, w.iz > 1e100, w.z, p.z))
         return false;
     leave_box(w, ray, p);
     return true;
@@ -65,9 +66,44 @@ VX_HD bool approach(const GridView& g, const Ray& ray, Walk& w) {
 
 enum class Walked : u8 { stopped, ended, lost };
 
+// Planes by which the ray leaves the empty cube of bricks that a skip word tells of.
+VX_HD IVec3 skip_planes(const Walk& w, IVec3 cell, u32 word) {
+    const i32 far = i32(brick_skip(word, w.up) - 1) * 4;
+    const auto plane = [far](i32 c, i32 at, bool up) { return at - (c & 3) + (up ? 4 + far : -far); };
+    return {plane(cell.x, w.x, w.up & 1), plane(cell.y, w.y, w.up & 2), plane(cell.z, w.z, w.up & 4)};
+}
+
+// Moves to the next cell, beyond the one it is in, that stops a ray through air; by GridView::skips.
+VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, double t_most, u32& steps) {
+    const IVec3 first{g.least.x * 16, g.least.y * 16, g.least.z * 16},
+        size{i32(g.extent_x * 16), i32(g.extent_y * 16), i32(g.extent_z * 16)};
+    bool fresh = true;
+    for (;;) {
+        const IVec3 cell = w.cell();
+        if (u32(cell.x) - u32(first.x) >= u32(size.x) || u32(cell.y) - u32(first.y) >= u32(size.y) ||
+            u32(cell.z) - u32(first.z) >= u32(size.z)) {
+            if (!approach(first, size, ray, w)) return Walked::ended;
+        } else {
+            const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
+            const u32 word = g.skips[slot_of(g, {cell.x >> 4, cell.y >> 4, cell.z >> 4}) * 64 + brick];
+            if (word & kBrickStops) {
+                const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
+                if (g.masks[word & ~kBrickStops] >> bit & 1 && !fresh) return Walked::stopped;
+                step_cell(w);
+            } else {
+                leave_box(w, ray, skip_planes(w, cell, word));
+            }
+        }
+        fresh = false;
+        if (!(w.t < t_most)) return Walked::ended;
+        if (steps-- == 0) return Walked::lost;
+    }
+}
+
 // Moves to the next cell, beyond the one it is in, that stops the ray; ended: none that is entered before t_most.
 // `steps` counts down. Outside of the window there is air: a ray in another medium stops there.
 VX_HD Walked next_stop(const GridView& g, const Ray& ray, Walk& w, Seek seek, double t_most, u32& steps) {
+    if (seek == Seek::air && g.skips) return next_in_air(g, ray, w, t_most, steps);
     bool fresh = true;
     for (;;) {
         const IVec3 cell = w.cell();
@@ -84,7 +120,8 @@ VX_HD Walked next_stop(const GridView& g, const Ray& ray, Walk& w, Seek seek, do
         } else if (seek != Seek::air) {
             if (!fresh) return Walked::stopped;
             step_cell(w);
-        } else if (!approach(g, ray, w)) {
+        } else if (!approach({g.first.x * 16, g.first.y * 16, g.first.z * 16},
+                             {16 << g.bits_x, 16 << g.bits_y, 16 << g.bits_z}, ray, w)) {
             return Walked::ended;
         }
         fresh = false;

@@ -22,18 +22,20 @@ VX_HD bool looks_in(const SceneView& s, IVec3 cell) {
     return r.quads != 0 || r.medium != 0 || has_sheets(r);
 }
 
-// The nearest border or surface before t_max. False: nothing; or, with HitKind::unknown, the ray passed more than
-// kCellsMost boxes of cells.
-VX_HD bool closest_hit(const SceneView& s, const Ray& ray, float t_max, u32 medium, Hit& hit) {
-    hit = Hit{};
-    bool found = false;
-    if (meet_boxes(s, ray, t_max, false, hit)) t_max = hit.t, found = true;
-    Walk w = start_walk(ray);
+// Goes on from where a walk stands. look: into that cell first. hit, found: what is known already (a box).
+VX_HD bool closest_from(const SceneView& s, const Ray& ray, Walk& w, bool look, float t_max, u32 medium, bool found,
+                        Hit& hit) {
     const Seek seek = seek_in(s, medium);
     u32 steps = kCellsMost, behind;
-    CellProgress progress;
-    if (looks_in(s, w.cell()) && meet_cell(s, ray, w, medium, t_max, progress, hit, behind)) return true;
     for (;;) {
+        if (look) {
+            CellProgress progress;
+            Hit met;
+            if (meet_cell(s, ray, w, medium, t_max, progress, met, behind)) {
+                hit = met;
+                return true;
+            }
+        }
         const Walked walked = next_stop(s.grid, ray, w, seek, double(t_max), steps);
         if (walked == Walked::lost) {
             hit = Hit{};
@@ -41,13 +43,18 @@ VX_HD bool closest_hit(const SceneView& s, const Ray& ray, float t_max, u32 medi
             return false;
         }
         if (walked == Walked::ended) return found;
-        progress = CellProgress{};
-        Hit met;
-        if (meet_cell(s, ray, w, medium, t_max, progress, met, behind)) {
-            hit = met;
-            return true;
-        }
+        look = true;
     }
+}
+
+// The nearest border or surface before t_max. False: nothing; or, with HitKind::unknown, the ray passed more than
+// kCellsMost boxes of cells.
+VX_HD bool closest_hit(const SceneView& s, const Ray& ray, float t_max, u32 medium, Hit& hit) {
+    hit = Hit{};
+    bool found = false;
+    if (meet_boxes(s, ray, t_max, false, hit)) t_max = hit.t, found = true;
+    Walk w = start_walk(ray);
+    return closest_from(s, ray, w, looks_in(s, w.cell()), t_max, medium, found, hit);
 }
 
 // Light may pass what was hit, perhaps weakened.

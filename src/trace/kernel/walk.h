@@ -88,11 +88,16 @@ VX_HD void step_cell(Walk& w) {
 // An axis' cell once all planes before distance t are crossed, and those at t too where the axis comes first (`ties`).
 // r: cell now; last: the farthest that it may be.
 VX_HD i32 settle(double a, double inverse, double dir, bool up, i32 r, i32 last, double t, bool ties) {
-    const double pos = a + dir * t, whole = std::floor(pos), part = pos - whole;
-    i32 c = whole < -double(kReach) ? -kReach : whole > double(kReach) ? kReach : i32(whole);
     const i32 least = up ? r : last, most = up ? last : r;
-    c = c < least ? least : c > most ? most : c;
-    if (part > 1e-7 && part < 1 - 1e-7) return c;
+    // From the least cell's lower plane. Rounding is far below kNear.
+    constexpr double kNear = 1e-7;
+    const double in = a + dir * t - double(least), whole = double(most - least + 1);
+    const double held = in > 0 ? (in < whole ? in : whole) : 0;
+    i32 c = i32(held);
+    const double part = in - double(c);
+    c = c > most - least ? most : least + c;
+    if (part > kNear && part < 1 - kNear) return c;
+    if (in < -kNear || in > whole + kNear) return c;
     const auto crossed = [&](i32 k) {
         const double at = (double(k) - a) * inverse;
         return at < t || (ties && at == t);

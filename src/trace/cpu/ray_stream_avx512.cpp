@@ -1,0 +1,376 @@
+// Streams of rays through air, 16 lanes wide (AVX-512), several groups of lanes in flight so that loads overlap.
+//
+// A lane makes the same steps as next_in_air (trace/kernel/grid_walk.h), in float; where float is not sure which plane
+// comes first or on which side of a plane the ray is, that lane's step is made by the scalar code instead, in double.
+// So cells are the same, always. What was met is told apart by scalar code too.
+//
+// Coordinates are mirrored on axes where the ray runs down (~c, and -at), so that all rays run up.
+#include "trace/cpu/ray_stream_scalar.h"
+
+#include <immintrin.h>
+
+namespace vitrail::trace::stream {
+
+namespace {
+
+constexpr u32 kLanes = 16, kGroups = 3, kRefillFrom = 5; // lanes idle
+constexpr u32 kBlock = 256;                              // rays made ready at once
+constexpr float kTieShare = 1e-6f;                       // of a distance: more than two distances' rounding
+constexpr float kNearPlane = 1e-6f;                      // blocks a block of distance: more than a position's rounding
+
+// Rays made ready: structure of arrays.
+struct alignas(64) Block {
+    i32 cell[3][kBlock];
+    float at[3][kBlock], dir[3][kBlock];
+    float t_max[kBlock];
+    u32 id[kBlock];
+    u32 next = 0, count = 0;
+};
+
+struct alignas(64) Group {
+    __m512i a[3];    // mirrored cell, of the world
+    __m512i base[3]; // mirrored cell that the ray starts in, less its own mirrored number (0 or -1)
+    __m512i low[3];  // mirrored least cell of what holds anything
+    __m512i sign[3]; // -1: mirrored
+    __m512 at[3], inverse[3], dir[3];
+    __m512 t_max;
+    __m512i shift; // of the octant's bits in skip words
+    __m512i axis;  // crossed last
+    __m512i id;
+    __mmask16 live = 0, fresh = 0;
+};
+
+struct Stopped {
+    i32 cell[3]; // relative to the start, not mirrored
+    u32 id, axis;
+};
+
+VX_HD i32 lane_of(const __m512i& v, u32 lane) {
+    return reinterpret_cast<const i32*>(&v)[lane];
+}
+VX_HD void set_lane(__m512i& v, u32 lane, i32 value) {
+    reinterpret_cast<i32*>(&v)[lane] = value;
+}
+
+// A lane as the scalar walk has it; t of the last plane is not known here.
+VX_HD Walk walk_of(const Group& g, u32 lane, const Ray& ray) {
+    Walk w = start_walk(ray);
+    i32* const to[3] = {&w.x, &w.y, &w.z};
+    for (u32 axis = 0; axis < 3; ++axis)
+        *to[axis] = (lane_of(g.a[axis], lane) - lane_of(g.base[axis], lane)) ^ lane_of(g.sign[axis], lane);
+    w.axis = u32(lane_of(g.axis, lane));
+    return w;
+}
+
+VX_HD void put_walk(Group& g, u32 lane, const Walk& w) {
+    const i32 r[3] = {w.x, w.y, w.z};
+    for (u32 axis = 0; axis < 3; ++axis)
+        set_lane(g.a[axis], lane, (r[axis] ^ lane_of(g.sign[axis], lane)) + lane_of(g.base[axis], lane));
+    set_lane(g.axis, lane, i32(w.axis));
+}
+
+struct Range {
+    i32 least[3], size[3]; // cells of the world that can hold anything
+};
+
+VX_HD bool out_of(const Range& r, IVec3 c) {
+    return u32(c.x) - u32(r.least[0]) >= u32(r.size[0]) || u32(c.y) - u32(r.least[1]) >= u32(r.size[1]) ||
+           u32(c.z) - u32(r.least[2]) >= u32(r.size[2]);
+}
+
+// The next rays of the stream that may go by lanes; others are done at once (`alone`).
+template <class Alone>
+VX_HD void make_ready(const Rays& r, u32& from, Block& b, Alone&& alone) {
+    b.next = b.count = 0;
+    while (b.count < kBlock && from < r.count) {
+        const u32 i = from++;
+        if (r.media && r.media[i]) {
+            alone(i);
+            continue;
+        }
+        const Ray& ray = r.rays[i];
+        const u32 n = b.count++;
+        b.cell[0][n] = ray.from.cell.x, b.cell[1][n] = ray.from.cell.y, b.cell[2][n] = ray.from.cell.z;
+        b.at[0][n] = ray.from.at.x, b.at[1][n] = ray.from.at.y, b.at[2][n] = ray.from.at.z;
+        b.dir[0][n] = ray.dir.x, b.dir[1][n] = ray.dir.y, b.dir[2][n] = ray.dir.z;
+        b.t_max[n] = t_max_of(r, i);
+        b.id[n] = i;
+    }
+}
+
+// Idle lanes take rays that are ready.
+VX_HD void refill(Group& g, Block& b, const Range& range) {
+    const u32 left = b.count - b.next;
+    __mmask16 take = __mmask16(~g.live);
+    if (u32(__builtin_popcount(take)) > left) take = __mmask16(_pdep_u32((1u << left) - 1, take));
+    const u32 n = b.next;
+    b.next += u32(__builtin_popcount(take));
+    const __m512 least = _mm512_set1_ps(kDirLeast), one = _mm512_set1_ps(1);
+    __m512i octant = _mm512_setzero_si512();
+    for (u32 axis = 0; axis < 3; ++axis) {
+        const __m512i cell = _mm512_maskz_expandloadu_epi32(take, &b.cell[axis][n]);
+        __m512 at = _mm512_maskz_expandloadu_ps(take, &b.at[axis][n]);
+        const __m512 dir = _mm512_maskz_expandloadu_ps(take, &b.dir[axis][n]);
+        __m512 speed = _mm512_abs_ps(dir);
+        const __mmask16 moves = _mm512_cmp_ps_mask(speed, least, _CMP_GT_OQ);
+        const __mmask16 down = _mm512_mask_cmp_ps_mask(moves, dir, _mm512_setzero_ps(), _CMP_LT_OQ);
+        at = _mm512_mask_mov_ps(_mm512_set1_ps(0.5f), moves, at);
+        at = _mm512_mask_xor_ps(at, down, at, _mm512_set1_ps(-0.0f));
+        speed = _mm512_maskz_mov_ps(moves, speed);
+        const __m512 inverse = _mm512_mask_div_ps(_mm512_set1_ps(1e30f), moves, one, speed);
+        const __m512i sign = _mm512_movm_epi32(down);
+        const __m512i base = _mm512_mask_sub_epi32(cell, down, _mm512_setzero_si512(), cell);
+        const __m512i low =
+            _mm512_mask_mov_epi32(_mm512_set1_epi32(range.least[axis]), down,
+                                  _mm512_set1_epi32(i32(0u - u32(range.least[axis]) - u32(range.size[axis]))));
+        g.sign[axis] = _mm512_mask_mov_epi32(g.sign[axis], take, sign);
+        g.base[axis] = _mm512_mask_mov_epi32(g.base[axis], take, base);
+        g.low[axis] = _mm512_mask_mov_epi32(g.low[axis], take, low);
+        g.a[axis] = _mm512_mask_add_epi32(g.a[axis], take, base, sign);
+        g.at[axis] = _mm512_mask_mov_ps(g.at[axis], take, at);
+        g.dir[axis] = _mm512_mask_mov_ps(g.dir[axis], take, speed);
+        g.inverse[axis] = _mm512_mask_mov_ps(g.inverse[axis], take, inverse);
+        octant = _mm512_mask_or_epi32(octant, __mmask16(~down), octant, _mm512_set1_epi32(1 << axis));
+    }
+    g.shift = _mm512_mask_mullo_epi32(g.shift, take, octant, _mm512_set1_epi32(3));
+    g.t_max = _mm512_mask_expandloadu_ps(g.t_max, take, &b.t_max[n]);
+    g.id = _mm512_mask_expandloadu_epi32(g.id, take, &b.id[n]);
+    g.axis = _mm512_mask_mov_epi32(g.axis, take, _mm512_set1_epi32(3));
+    g.live = __mmask16(g.live | take);
+    g.fresh = __mmask16(g.fresh | take);
+}
+
+struct Events {
+    __mmask16 stopped = 0; // in a cell that stops the ray
+    __mmask16 inside = 0;  // starts in such a cell
+    __mmask16 gone = 0;    // nothing more comes
+    __mmask16 before = 0;  // starts outside of the range
+    __mmask16 unsure = 0;  // this step is to be made by scalar code
+};
+
+// One step of every lane.
+VX_HD Events step(Group& g, const GridView& grid, const Range& range) {
+    Events e;
+    const __mmask16 live = g.live;
+    __mmask16 beyond = 0, before = 0;
+    __m512i cell[3];
+    for (u32 axis = 0; axis < 3; ++axis) {
+        const __m512i in = _mm512_sub_epi32(g.a[axis], g.low[axis]);
+        beyond = __mmask16(beyond | _mm512_cmpge_epi32_mask(in, _mm512_set1_epi32(range.size[axis])));
+        before = __mmask16(before | _mm512_movepi32_mask(in));
+        cell[axis] = _mm512_xor_si512(g.a[axis], g.sign[axis]);
+    }
+    e.gone = __mmask16(beyond & live);
+    e.before = __mmask16(before & live & ~beyond);
+    const __mmask16 on = __mmask16(live & ~beyond & ~before);
+
+    // The brick's word: slot of the chunk, brick in it.
+    const auto bits = [](__m512i v, u32 mask) { return _mm512_and_si512(v, _mm512_set1_epi32(i32(mask))); };
+    const auto left = [](__m512i v, u32 by) { return _mm512_sll_epi32(v, _mm_cvtsi32_si128(i32(by))); };
+    const auto right = [](__m512i v, u32 by) { return _mm512_srl_epi32(v, _mm_cvtsi32_si128(i32(by))); };
+    const u32 mx = (1u << grid.bits_x) - 1, my = (1u << grid.bits_y) - 1, mz = (1u << grid.bits_z) - 1;
+    __m512i index = _mm512_slli_epi32(bits(cell[0], mx << 4), 2); // slot << 6
+    index = _mm512_or_si512(index, left(bits(cell[2], mz << 4), grid.bits_x + 2));
+    index = _mm512_or_si512(index, left(bits(cell[1], my << 4), grid.bits_x + grid.bits_z + 2));
+    const __m512i brick = _mm512_or_si512(_mm512_or_si512(_mm512_srli_epi32(bits(cell[0], 12), 2), bits(cell[2], 12)),
+                                          _mm512_slli_epi32(bits(cell[1], 12), 2));
+    index = _mm512_or_si512(index, brick);
+    const __m512i word =
+        _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), on, index, reinterpret_cast<const int*>(grid.skips), 4);
+    const __mmask16 filled = _mm512_movepi32_mask(word);
+    (void)right;
+
+    // Bricks with anything in them: the cell's bit.
+    if (filled) {
+        const __m512i low5 = _mm512_or_si512(_mm512_or_si512(bits(cell[0], 3), _mm512_slli_epi32(bits(cell[2], 3), 2)),
+                                             _mm512_slli_epi32(bits(cell[1], 1), 4));
+        const __m512i half = _mm512_srli_epi32(bits(cell[1], 2), 1);
+        const __m512i at = _mm512_or_si512(_mm512_slli_epi32(word, 1), half);
+        const __m512i mask = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), filled, at,
+                                                         reinterpret_cast<const int*>(grid.masks), 4);
+        const __mmask16 set = _mm512_mask_test_epi32_mask(filled, _mm512_srlv_epi32(mask, low5), _mm512_set1_epi32(1));
+        e.inside = __mmask16(set & g.fresh);
+        e.stopped = __mmask16(set & ~g.fresh);
+    }
+    g.fresh = __mmask16(g.fresh & ~on);
+
+    // The box to leave: a cell, or a cube of empty bricks.
+    const __mmask16 wide = __mmask16(~filled);
+    const __m512i code = bits(_mm512_srlv_epi32(word, g.shift), 7);
+    const __m512i one = _mm512_set1_epi32(1);
+    const __m512i far = _mm512_mask_slli_epi32(one, wide, _mm512_add_epi32(code, one), 2);
+    const __m512i keep = _mm512_mask_mov_epi32(_mm512_set1_epi32(-1), wide, _mm512_set1_epi32(-4));
+    __m512i plane[3];
+    __m512 t[3];
+    for (u32 axis = 0; axis < 3; ++axis) {
+        plane[axis] = _mm512_add_epi32(_mm512_and_si512(g.a[axis], keep), far);
+        const __m512 k = _mm512_cvtepi32_ps(_mm512_sub_epi32(plane[axis], g.base[axis]));
+        t[axis] = _mm512_mul_ps(_mm512_sub_ps(k, g.at[axis]), g.inverse[axis]);
+    }
+    const __m512 xy = _mm512_min_ps(t[0], t[1]), later = _mm512_max_ps(t[0], t[1]);
+    const __m512 first = _mm512_min_ps(xy, t[2]);
+    const __m512 second = _mm512_max_ps(xy, _mm512_min_ps(later, t[2]));
+    const __mmask16 by_z = _mm512_cmp_ps_mask(t[2], xy, _CMP_LT_OQ);
+    const __mmask16 by_y = __mmask16(_mm512_cmp_ps_mask(t[1], t[0], _CMP_LT_OQ) & ~by_z);
+    const __mmask16 by[3] = {__mmask16(~(by_y | by_z)), by_y, by_z};
+    __mmask16 unsure =
+        _mm512_cmp_ps_mask(_mm512_sub_ps(second, first), _mm512_mul_ps(second, _mm512_set1_ps(kTieShare)), _CMP_NGT_UQ);
+
+    // Where the ray is then, on the other axes.
+    const __m512 near = _mm512_mul_ps(_mm512_add_ps(first, _mm512_set1_ps(1)), _mm512_set1_ps(kNearPlane));
+    const __mmask16 moving = __mmask16(on & ~e.stopped & ~e.inside);
+    for (u32 axis = 0; axis < 3; ++axis) {
+        const __m512 pos = _mm512_fmadd_ps(g.dir[axis], first, g.at[axis]);
+        const __m512 off = _mm512_reduce_ps(pos, 0); // from the nearest integer
+        unsure = __mmask16(unsure |
+                           _mm512_mask_cmp_ps_mask(__mmask16(wide & ~by[axis]), _mm512_abs_ps(off), near, _CMP_NGT_UQ));
+        __m512i to =
+            _mm512_add_epi32(_mm512_cvt_roundps_epi32(pos, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC), g.base[axis]);
+        to = _mm512_max_epi32(to, g.a[axis]);
+        to = _mm512_min_epi32(to, _mm512_sub_epi32(plane[axis], one));
+        to = _mm512_mask_mov_epi32(to, by[axis], plane[axis]);
+        cell[axis] = to; // taken below
+    }
+    // The way's end.
+    const __m512 end = g.t_max;
+    const __mmask16 past = _mm512_cmp_ps_mask(first, _mm512_mul_ps(end, _mm512_set1_ps(1 + kTieShare)), _CMP_GT_OQ);
+    const __mmask16 at_end = _mm512_cmp_ps_mask(first, _mm512_mul_ps(end, _mm512_set1_ps(1 - kTieShare)), _CMP_GE_OQ);
+    unsure = __mmask16(unsure | (at_end & ~past));
+    e.unsure = __mmask16(unsure & moving);
+    e.gone = __mmask16(e.gone | (past & moving & ~unsure));
+    const __mmask16 go = __mmask16(moving & ~unsure);
+    for (u32 axis = 0; axis < 3; ++axis) {
+        g.a[axis] = _mm512_mask_mov_epi32(g.a[axis], go, cell[axis]);
+        g.axis = _mm512_mask_mov_epi32(g.axis, __mmask16(go & by[axis]), _mm512_set1_epi32(i32(axis)));
+    }
+    return e;
+}
+
+// The step of a lane that is not sure, as next_in_air makes it. False: the way ends.
+VX_HD bool step_exactly(Group& g, u32 lane, const GridView& grid, const Ray& ray, float t_max) {
+    Walk w = walk_of(g, lane, ray);
+    const IVec3 cell = w.cell();
+    const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
+    const u32 word = grid.skips[slot_of(grid, {cell.x >> 4, cell.y >> 4, cell.z >> 4}) * 64 + brick];
+    if (word & kBrickStops)
+        step_cell(w);
+    else
+        leave_box(w, ray, skip_planes(w, cell, word));
+    put_walk(g, lane, w);
+    return w.t < double(t_max);
+}
+
+// Runs rays by lanes. stopped(id, cell relative to the start, axis): a cell stops the ray; nothing(id); alone(id): not
+// for lanes.
+template <class OnStopped, class OnNothing, class Alone>
+VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnNothing&& on_nothing, Alone&& alone) {
+    const Range range{{grid.least.x * 16, grid.least.y * 16, grid.least.z * 16},
+                      {i32(grid.extent_x * 16), i32(grid.extent_y * 16), i32(grid.extent_z * 16)}};
+    const IVec3 least{range.least[0], range.least[1], range.least[2]},
+        size{range.size[0], range.size[1], range.size[2]};
+    Block block;
+    Group groups[kGroups];
+    for (Group& g : groups)
+        __builtin_memset(static_cast<void*>(&g), 0, sizeof g);
+    u32 from = 0;
+    u32 busy = kGroups;
+    while (busy != 0) {
+        busy = 0;
+        for (Group& g : groups) {
+            const u32 idle = kLanes - u32(__builtin_popcount(g.live));
+            if (idle >= kRefillFrom) {
+                if (block.next == block.count) make_ready(r, from, block, alone);
+                if (block.next != block.count) refill(g, block, range);
+            }
+            if (g.live == 0) continue;
+            ++busy;
+            const Events e = step(g, grid, range);
+            __mmask16 ended = __mmask16(e.gone | e.stopped | e.inside);
+            for (u32 m = e.stopped; m; m &= m - 1) {
+                const u32 lane = u32(__builtin_ctz(m));
+                i32 cell[3];
+                for (u32 axis = 0; axis < 3; ++axis)
+                    cell[axis] = (lane_of(g.a[axis], lane) - lane_of(g.base[axis], lane)) ^ lane_of(g.sign[axis], lane);
+                on_stopped(u32(lane_of(g.id, lane)), cell, u32(lane_of(g.axis, lane)));
+            }
+            for (u32 m = e.gone; m; m &= m - 1)
+                on_nothing(u32(lane_of(g.id, u32(__builtin_ctz(m)))));
+            for (u32 m = e.inside; m; m &= m - 1)
+                alone(u32(lane_of(g.id, u32(__builtin_ctz(m)))));
+            for (u32 m = e.unsure; m; m &= m - 1) {
+                const u32 lane = u32(__builtin_ctz(m)), id = u32(lane_of(g.id, lane));
+                if (step_exactly(g, lane, grid, r.rays[id], t_max_of(r, id))) continue;
+                ended = __mmask16(ended | 1u << lane);
+                on_nothing(id);
+            }
+            for (u32 m = e.before; m; m &= m - 1) {
+                const u32 lane = u32(__builtin_ctz(m)), id = u32(lane_of(g.id, lane));
+                Walk w = walk_of(g, lane, r.rays[id]);
+                bool comes = true;
+                while (comes && out_of(range, w.cell()))
+                    comes = approach(least, size, r.rays[id], w) && w.t < double(t_max_of(r, id));
+                g.fresh = __mmask16(g.fresh & ~(1u << lane));
+                put_walk(g, lane, w);
+                if (comes) continue;
+                ended = __mmask16(ended | 1u << lane);
+                on_nothing(id);
+            }
+            g.live = __mmask16(g.live & ~ended);
+        }
+    }
+}
+
+// A lane's place in the scalar walk.
+VX_HD Walk stopped_walk(const Ray& ray, const i32* cell, u32 axis) {
+    Walk w = start_walk(ray);
+    w.x = cell[0], w.y = cell[1], w.z = cell[2], w.axis = axis;
+    const bool up = w.up >> axis & 1;
+    w.t = axis == 0 ? plane_x(w, w.x + !up) : axis == 1 ? plane_y(w, w.y + !up) : plane_z(w, w.z + !up);
+    return w;
+}
+
+} // namespace
+
+void trace_avx512(const SceneView& s, const Rays& r, Hit* hits) {
+    if (s.box_count != 0) { // few: their boxes are asked ray by ray
+        for (u32 i = 0; i < r.count; ++i)
+            trace_one(s, r, i, hits);
+        return;
+    }
+    run(
+        s.grid, r,
+        [&](u32 id, const i32* cell, u32 axis) {
+            const Ray& ray = r.rays[id];
+            Walk w = stopped_walk(ray, cell, axis);
+            const u32 state = state_at(s.grid, w.cell());
+            if (s.states[state].kind == CellKind::cube) {
+                face_hit(hits[id], w.t, w.cell(), state, w.face(), false);
+                return;
+            }
+            hits[id] = Hit{};
+            closest_from(s, ray, w, true, t_max_of(r, id), 0, false, hits[id]);
+        },
+        [&](u32 id) { hits[id] = Hit{}; }, [&](u32 id) { trace_one(s, r, id, hits); });
+}
+
+void shadow_avx512(const SceneView& s, const Rays& r, Lit* lit) {
+    if (s.box_count != 0) {
+        for (u32 i = 0; i < r.count; ++i)
+            shadow_one(s, r, i, lit);
+        return;
+    }
+    run(
+        s.grid, r,
+        [&](u32 id, const i32* cell, u32) {
+            const IVec3 start = r.rays[id].from.cell;
+            const IVec3 at{i32(u32(start.x) + u32(cell[0])), i32(u32(start.y) + u32(cell[1])),
+                           i32(u32(start.z) + u32(cell[2]))};
+            if (s.states[state_at(s.grid, at)].kind == CellKind::cube)
+                lit[id] = Lit::shadow;
+            else
+                shadow_one(s, r, id, lit);
+        },
+        [&](u32 id) { lit[id] = Lit::open; }, [&](u32 id) { shadow_one(s, r, id, lit); });
+}
+
+} // namespace vitrail::trace::stream
