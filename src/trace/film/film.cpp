@@ -71,9 +71,7 @@ void Film::finish(ThreadPool* pool) {
         });
     for (const FilmPass& pass : film_order(frame_)) {
         const FilmStage stage = stages_->stages[u32(pass.stage)];
-        const u32 count =
-            pass.stage == FilmStep::watch || pass.stage == FilmStep::test ? planes_.tiles_high : planes_.height;
-        rows(count, 8, [&](u32 y0, u32 y1) { stage(planes_, frame_, pass.level, y0, y1); });
+        rows(film_rows(pass.stage, planes_), 8, [&](u32 y0, u32 y1) { stage(planes_, frame_, pass.level, y0, y1); });
     }
     ++frames_;
 }

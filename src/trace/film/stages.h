@@ -1,30 +1,13 @@
 // The film's stages over rows of pixels, built for three vector sets; and their order in a frame.
 #pragma once
 
-#include "trace/kernel/film_planes.h"
+#include "trace/kernel/film_stage.h"
 
 #include <vector>
 
 namespace vitrail::trace {
 
-enum class FilmStep : u8 {
-    mean,
-    slope,
-    spikes,
-    spread,
-    fill,
-    reproject,
-    watch, // tiles
-    test,  // tiles
-    respond,
-    filter,
-    air,
-    merge,
-    resolve,
-    count
-};
-
-// One launch: a stage over all pixels (watch, test: over all tiles), after the one before is done everywhere.
+// One launch of film_pixel<stage>, after the one before is done everywhere.
 struct FilmPass {
     FilmStep stage;
     u32 level = 0; // filter, air: 0.. widening
