@@ -1,0 +1,25 @@
+// What media take from light and scatter. Kernel-safe.
+#pragma once
+
+#include "scene/water.h"
+#include "trace/kernel/surface.h"
+
+namespace vitrail::trace {
+
+inline constexpr u32 kTintWater = 3; // TintKind
+
+// Of a stretch in this medium, a block, base e: all that a ray loses, and what of that is scattered. A tinted medium
+// has the color of the place where the stretch begins.
+VX_HD scene::LiquidOptics medium_optics(const SceneView& s, Place at, u32 medium) {
+    const MediumRecord& m = s.media[medium];
+    if (m.tinted) return scene::water_optics(biome_tint(s.grid, kTintWater, at));
+    return {m.absorption, m.scattering};
+}
+
+// Share of light left after `length` blocks.
+VX_HD Vec3 medium_left(const SceneView& s, Place at, float length, u32 medium) {
+    const Vec3 lost = medium_optics(s, at, medium).absorption * length;
+    return {std::exp(-lost.x), std::exp(-lost.y), std::exp(-lost.z)};
+}
+
+} // namespace vitrail::trace
