@@ -25,7 +25,7 @@ struct Sampler {
     u32 drawn = 0; // draws so far
 };
 
-inline constexpr u32 kDithered = 6;
+inline constexpr u32 kDithered = 8;
 
 VX_HD constexpr u32 mixed(u32 x) { // a permutation of 32 bits (constants of Wellons, "Hash Function Prospector", 2018)
     x ^= x >> 16;
