@@ -20,6 +20,7 @@ struct Look {
 Picture traced(const scene::FrameView& frame, const FrameUniforms& u, bool clouds) {
     trace::SkyView sky = trace::sky_view_of(frame);
     sky.clouds = clouds;
+    sky.cloud_steps = 9; // as many as the shader's
     Picture out(frame.width, frame.height);
     const auto xyz = [](Vec4 v) { return Vec3{v.x, v.y, v.z}; };
     const ViewUniforms& view = u.views[0];

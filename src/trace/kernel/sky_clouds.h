@@ -10,7 +10,6 @@ namespace vitrail::trace {
 inline constexpr float kCloudBase = 520, kCloudThick = 150, kCloudGlobe = 9000; // blocks
 inline constexpr float kCloudCoarse = 1.0f / 4096, kCloudFine = 1.0f / 1024;    // texture a block
 inline constexpr Vec2 kCloudWind{3.1f, 1.2f};                                   // blocks a second
-inline constexpr u32 kCloudSteps = 9;
 
 // Way along a ray of this slope to the shell that high above the eye.
 VX_HD float way_to_shell(float slope, float above) {
@@ -49,11 +48,11 @@ VX_HD CloudsSeen clouds_seen(const SkyView& sky, Vec3 d, float edge, float dithe
     const float phase = cloud_phase(dot(d, towards));
     float far = way_to_shell(d.y, above + kCloudThick);
     far = far < near + 4 * kCloudThick ? far : near + 4 * kCloudThick;
-    const float stride = (far - near) / float(kCloudSteps);
+    const float stride = (far - near) / float(sky.cloud_steps);
     const float lean = kCloudThick / (towards.y > 0.22f ? towards.y : 0.22f);
     Vec3 light;
     float through = 1;
-    for (u32 i = 0; i < kCloudSteps; ++i) {
+    for (u32 i = 0; i < sky.cloud_steps; ++i) {
         const float t = near + stride * (float(i) + dither);
         const float high = clamp((t * d.y + t * t * (0.5f / kCloudGlobe) - above) / kCloudThick, 0.0f, 1.0f);
         const Vec2 at{sky.cloud_place.x + d.x * t, sky.cloud_place.y + d.z * t};

@@ -30,6 +30,7 @@ struct SkyView {
     bool clouds = true, star_field = true; // wanted
     Vec2 cloud_place;        // where the eye stands in the clouds' noise: blocks modulo 4096, wind taken in
     float cloud_above = 456; // blocks from the eye up to the clouds
+    u32 cloud_steps = 6;     // of the march through them; the raster's 9 differ by 0.005 in the mean
     float seconds = 0;       // stars twinkle, clouds change
 };
 
