@@ -35,7 +35,7 @@ TEST(Sampler, EveryPixelsPairsAreNets) {
 }
 
 TEST(Sampler, SingleNumbersAreStratified) {
-    for (u32 n : {0u, 9u}) {
+    for (u32 n : {0u, kDithered + 3}) {
         std::vector<u32> counts(64);
         for (u32 i = 0; i < 64; ++i) {
             Sampler s = make_sampler(7, 8, i, 1);
@@ -49,7 +49,7 @@ TEST(Sampler, SingleNumbersAreStratified) {
 }
 
 TEST(Sampler, SameArgumentsSameNumbersOthersDiffer) {
-    for (u32 n : {0u, 8u}) {
+    for (u32 n : {0u, kDithered + 2}) {
         const Vec2 a = draw(10, 20, 30, 40, n), b = draw(10, 20, 30, 40, n);
         EXPECT_EQ(a.x, b.x);
         EXPECT_EQ(a.y, b.y);
@@ -61,7 +61,7 @@ TEST(Sampler, SameArgumentsSameNumbersOthersDiffer) {
 
 // First of all even numbers: mean, and moments of higher order, over seeds.
 TEST(Sampler, EvenOverSeedsAndPixels) {
-    for (u32 n : {0u, 9u}) {
+    for (u32 n : {0u, kDithered + 3}) {
         double sums[4] = {};
         constexpr u32 count = 1 << 14;
         std::vector<u32> boxes(256);
@@ -115,7 +115,7 @@ TEST(Sampler, PairsAndPixelsAreIndependent) {
                   most)
             << n;
     EXPECT_LT(std::abs(correlation([](u32 i) {
-                  return std::pair{draw(3, 4, i, 1, 7).x, draw(4, 4, i, 1, 7).x};
+                  return std::pair{draw(3, 4, i, 1, kDithered + 1).x, draw(4, 4, i, 1, kDithered + 1).x};
               })),
               most);
 }
@@ -130,7 +130,7 @@ static double edge_part(Vec2 p) {
 
 TEST(Sampler, ErrorFallsFasterThanByChance) {
     for (auto* f : {smooth_part, edge_part})
-        for (u32 n : {1u, 8u})
+        for (u32 n : {1u, kDithered + 2})
             for (u32 count : {16u, 256u}) {
                 double exact = 0;
                 for (u32 i = 0; i < 512; ++i)
