@@ -1,4 +1,5 @@
 #include "apps/commands.h"
+#include "apps/trace_pictures.h"
 
 #include "base/clock.h"
 #include "client/still.h"
@@ -30,14 +31,23 @@ static Result<client::CameraPose> pose_at_spawn(const Content& content, u64 seed
     return pose;
 }
 
+// cuda where it is wanted or, for auto, where there is a device.
+static Result<trace::Device> choose_device(const std::string& wanted) {
+    if (wanted == "cpu") return trace::Device::cpu;
+    if (wanted == "cuda") return trace::Device::cuda;
+    if (wanted != "auto") return fail(ErrorCode::invalid_argument, fmt::format("--device is cpu, cuda or auto, not '{}'", wanted));
+    return trace::Tracer::create({.device = trace::Device::cuda}) ? trace::Device::cuda : trace::Device::cpu;
+}
+
 Result<> run_render(const RenderOptions& wanted) {
     RenderOptions options = wanted;
     if (options.demo) choose_demo(options);
     if (options.renderer != "raster" && options.renderer != "trace")
         return fail(ErrorCode::invalid_argument, fmt::format("--renderer is raster or trace, not '{}'", options.renderer));
-    if (options.renderer == "trace") return fail(ErrorCode::unsupported, "the path tracer is not built yet: use --renderer raster");
     if (options.world.empty() == !options.seed)
         return fail(ErrorCode::invalid_argument, "render wants one of --world DIR and --seed N");
+    if (options.denoise != "on" && options.denoise != "off")
+        return fail(ErrorCode::invalid_argument, fmt::format("--denoise is on or off, not '{}'", options.denoise));
     VX_TRY_ASSIGN(const auto size, parse_size(options.size));
     client::StillOptions still_options;
     still_options.world = options.world;
@@ -47,6 +57,9 @@ Result<> run_render(const RenderOptions& wanted) {
     VX_TRY_ASSIGN(still_options.effects, effects_of(options.effects, still_options.effects));
     still_options.shader_folder = options.effects.shader_folder;
     still_options.packs = options.packs;
+    if (options.renderer == "trace") {
+        VX_TRY_ASSIGN(still_options.trace, choose_device(options.device));
+    }
     bool from_spawn = false;
     if (options.at.empty()) {
         if (!options.seed) return fail(ErrorCode::invalid_argument, "render --world wants --at X,Y,Z and --look YAW,PITCH");
@@ -72,22 +85,38 @@ Result<> run_render(const RenderOptions& wanted) {
     VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, content));
 
     const u64 start = now_ns();
-    VX_TRY_ASSIGN(const auto image, still->draw(still_options.pose, size.first, size.second, options.time));
+    TracedStats traced;
+    render::Image image;
+    if (still_options.trace) {
+        TracedPicture picture;
+        picture.width = size.first, picture.height = size.second, picture.time = options.time;
+        picture.spp = u32(options.spp), picture.bounces = u32(options.bounces), picture.seed = u32(options.trace_seed);
+        picture.denoise = options.denoise == "on";
+        VX_TRY_ASSIGN(traced, trace_picture(*still, still_options.pose, picture, *still_options.stop));
+        VX_TRY_ASSIGN(image, still->develop(still_options.pose, size.first, size.second, options.time));
+    } else {
+        VX_TRY_ASSIGN(image, still->draw(still_options.pose, size.first, size.second, options.time));
+    }
     const double draw_s = seconds_since(start);
     VX_TRY(render::write_png(options.output, image));
     if (const u32 missing = still->renderer().missing_textures(); missing > 0)
         fmt::print(stderr, "vitrail: info: {} textures are missing, the first is {}\n", missing,
                    still->renderer().missing_texture_names().front());
     if (options.stats_file.empty()) return {};
-    VX_TRY_ASSIGN(const auto times, still->time_passes(still_options.pose, size.first, size.second, options.time));
     nlohmann::json passes_ms = nlohmann::json::object();
-    for (const auto& [pass, ms] : times) passes_ms[pass] = ms;
+    if (still_options.trace) {
+        const trace::TracerStats& last = still->tracer().stats();
+        passes_ms = {{"trace", last.trace_ms}, {"denoise", last.denoise_ms}, {"update", last.update_ms}};
+    } else {
+        VX_TRY_ASSIGN(const auto times, still->time_passes(still_options.pose, size.first, size.second, options.time));
+        for (const auto& [pass, ms] : times) passes_ms[pass] = ms;
+    }
     const auto& frame = still->renderer().stats();
     const auto info = gfx::context_info();
     nlohmann::json stats = {{"seconds", {{"open", still->times().open_s}, {"world", still->times().world_s},
                                                {"mesh", still->times().mesh_s}, {"draw", draw_s}}},
                                   {"frames", 1},
-                                  {"rays", 0},
+                                  {"rays", traced.rays},
                                   {"chunks", frame.sections},
                                   {"chunks_visible", frame.sections_visible},
                                   {"triangles", frame.triangles},
@@ -98,6 +127,14 @@ Result<> run_render(const RenderOptions& wanted) {
                                   {"peak_memory_bytes", peak_memory_bytes()},
                                   {"passes_ms", passes_ms},
                                   {"device", info ? info->renderer : "unknown"}};
+    if (still_options.trace) {
+        const trace::TracerStats& last = still->tracer().stats();
+        stats["device"] = last.device;
+        stats["chunks"] = last.chunks;
+        stats["trace"] = {{"samples", last.samples}, {"paths", traced.paths}, {"seconds", traced.seconds},
+                          {"million_rays_a_second", double(traced.rays) * 1e-6 / std::max(traced.seconds, 1e-9)},
+                          {"emitters", last.emitters}, {"host_bytes", last.host_bytes}, {"device_bytes", last.device_bytes}};
+    }
     if (const scene::PackLooks* packs = still->packs()) {
         const auto& c = packs->counts();
         stats["packs"] = {{"count", c.packs}, {"textures_replaced", c.replaced_textures}, {"textures_added", c.own_textures},

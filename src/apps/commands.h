@@ -56,10 +56,11 @@ struct BiomeMapOptions {
 Result<> run_biome_map(const BiomeMapOptions& options);
 
 struct RenderOptions {
-    std::string world, dimension, at, look, size = "854x480", renderer = "raster", device, output, stats_file;
+    std::string world, dimension, at, look, size = "854x480", renderer = "raster", device = "auto", output, stats_file;
     std::optional<u64> seed;
     float fov_deg = 70, time = 6000;
-    int view_distance = 12, spp = 1;
+    int view_distance = 12, spp = 64, bounces = 4, trace_seed = 0;
+    std::string denoise = "on";
     EffectArguments effects;
     std::vector<std::string> packs;
     bool demo = false;

@@ -132,7 +132,10 @@ int main(int argc, char** argv) {
         c->add_option("--time", render.time, "time of day, 6000 is noon")->check(number_in(0, 24000));
         c->add_option("--renderer", render.renderer, "raster or trace");
         c->add_option("--spp", render.spp, "samples a pixel (trace)")->check(CLI::Range(1, 1'000'000));
-        c->add_option("--device", render.device, "cpu or cuda (trace)");
+        c->add_option("--device", render.device, "cpu, cuda or auto (trace)");
+        c->add_option("--denoise", render.denoise, "on or off (trace)");
+        c->add_option("--bounces", render.bounces, "scattering events of a path (trace)")->check(CLI::Range(0, 64));
+        c->add_option("--trace-seed", render.trace_seed, "another seed, other noise (trace)")->check(CLI::Range(0, 2'000'000'000));
         add_effect_arguments(*c, render.effects);
         c->add_option("--pack", render.packs, "resource pack, zip or folder; several: the later covers the earlier")->allow_extra_args(false);
         c->add_option("--view-distance", render.view_distance, "chunks")->check(CLI::Range(1, 32));

@@ -80,6 +80,7 @@ void SectionFeeder::update(replica::Replica& replica, BlockPos eye, double budge
     const u64 start = now_ns();
     dimension_ = replica.dimension().info().id;
     for (const replica::DirtySection& dirty : replica.take_dirty()) {
+        if (listener_) listener_(dirty);
         if (dirty.what & replica::kGone) {
             const auto it = sections_.find(dirty.at);
             if (it != sections_.end()) {
@@ -107,7 +108,7 @@ void SectionFeeder::update(replica::Replica& replica, BlockPos eye, double budge
     }
     models_->ensure(*replica.states());
     take_answers();
-    if (waiting_ > 0) start_jobs(replica, eye, start, budget_ms / 3);
+    if (waiting_ > 0 && meshing_) start_jobs(replica, eye, start, budget_ms / 3);
 
     renderer_.sync_models(*models_); // meshing may have interned liquid quads
     std::size_t done = 0;
@@ -248,7 +249,7 @@ void SectionFeeder::upload(const Answer& answer) {
 
 bool SectionFeeder::settled() const {
     std::lock_guard lock(shared_->mutex);
-    return waiting_ == 0 && in_flight_ == 0 && taken_.empty() && shared_->ready.empty();
+    return (waiting_ == 0 || !meshing_) && in_flight_ == 0 && taken_.empty() && shared_->ready.empty();
 }
 
 FeederStats SectionFeeder::stats() const {

@@ -17,6 +17,7 @@
 #include "scene/block_model.h"
 #include "scene/pack_looks.h"
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -48,11 +49,16 @@ public:
     void update(replica::Replica& replica, BlockPos eye, double budget_ms);
     // Other packs while playing: waits for the jobs that run, then meshes everything anew. Load the renderer's textures before.
     void set_packs(std::shared_ptr<const scene::PackLooks> packs);
+    // Off: sections only wait, for a renderer that needs no meshes (the tracer); `settled` leaves them out then.
+    void set_meshing(bool on) { meshing_ = on; }
+    // Hears of every change that `update` takes from the replica; before it is used.
+    void on_dirty(std::function<void(const replica::DirtySection&)> listener) { listener_ = std::move(listener); }
     // Nothing waits, runs or lies ready.
     bool settled() const;
     FeederStats stats() const;
     const scene::BlockModels& models() const { return *models_; }
     scene::BlockModels& models() { return *models_; }
+    std::span<const render::BiomeTint> tints() const { return tints_; } // by BiomeId
 
 private:
     struct Section {
@@ -89,11 +95,13 @@ private:
     std::shared_ptr<const scene::PackLooks> packs_;
     std::unique_ptr<scene::BlockModels> models_;
     std::vector<render::BiomeTint> tints_; // by BiomeId
+    std::function<void(const replica::DirtySection&)> listener_;
     std::unordered_map<ChunkPos, Section> sections_;
     std::vector<ChunkPos> waiting_at_; // all that wait; and some that went or were begun since it was last looked through
     std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
     std::vector<Answer> taken_;
     DimensionId dimension_{};
+    bool meshing_ = true;
     u32 waiting_ = 0, in_flight_ = 0, in_flight_most_;
     u64 meshed_ = 0, uploaded_ = 0, without_job_ = 0, jobs_ = 0;
     u64 uploaded_at_return_ = 0;

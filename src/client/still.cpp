@@ -52,6 +52,15 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Co
     VX_TRY(still->renderer_->load_textures(*content.registry, still->packs_.get()));
     still->pool_ = std::make_unique<ThreadPool>(default_worker_count());
     still->feeder_ = std::make_unique<SectionFeeder>(*still->renderer_, *still->pool_, still->packs_);
+    if (options.trace) {
+        trace::TracerOptions tracer;
+        tracer.device = *options.trace;
+        tracer.pool = still->pool_.get();
+        VX_TRY_ASSIGN(still->tracer_, trace::Tracer::create(tracer));
+        still->trace_feeder_ = std::make_unique<TraceFeeder>(*still->tracer_, *content.registry, still->packs_.get());
+        still->feeder_->set_meshing(false);
+        still->feeder_->on_dirty([feeder = still->trace_feeder_.get()](const replica::DirtySection& d) { feeder->mark(d); });
+    }
     still->times_.open_s = seconds_since(start);
     VX_TRY(still->wait_complete(options));
     return still;
@@ -59,6 +68,8 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Co
 
 Still::~Still() {
     feeder_.reset();
+    trace_feeder_.reset();
+    tracer_.reset();
     game_.reset();
     renderer_.reset();
     if (!scratch_folder_.empty()) {
@@ -81,6 +92,7 @@ Result<> Still::wait_complete(const StillOptions& options) {
             times_.world_s = seconds_since(start);
         }
         if (all_here) feeder_->update(replica, eye, 1e9); // meshed once, with all neighbors here
+        if (all_here && trace_feeder_) VX_TRY(trace_feeder_->update(replica, *feeder_, 1e9));
         if (all_here && feeder_->settled() && game_->server().stats().idle) break;
         if (options.stop && *options.stop) return fail(ErrorCode::denied, "interrupted");
         if (seconds_since(start) > options.seconds_most)
@@ -91,12 +103,29 @@ Result<> Still::wait_complete(const StillOptions& options) {
     return {};
 }
 
+scene::FrameView Still::frame_at(const CameraPose& pose, u32 width, u32 height, float time) {
+    return build_frame(pose, game_->replica().dimension(), width, height, time, view_distance_, 40,
+                       water_tint_at(game_->replica(), block_of(pose.eye.at)));
+}
+
 Result<> Still::draw_only(const CameraPose& pose, u32 width, u32 height, float time) {
-    const scene::FrameView frame = build_frame(pose, game_->replica().dimension(), width, height, time, view_distance_, 40,
-                                                water_tint_at(game_->replica(), block_of(pose.eye.at)));
-    VX_TRY(renderer_->render(frame));
+    VX_TRY(renderer_->render(frame_at(pose, width, height, time)));
     glFinish();
     return {};
+}
+
+Result<> Still::trace(const CameraPose& pose, u32 width, u32 height, float time, const trace::TraceSettings& settings) {
+    return tracer_->render(frame_at(pose, width, height, time), settings);
+}
+
+Result<render::Image> Still::develop(const CameraPose& pose, u32 width, u32 height, float time) {
+    if (film_.width != width || film_.height != height) film_ = gfx::make_texture_2d(GL_RGBA32F, width, height);
+    VX_TRY(tracer_->write_texture(film_.name()));
+    renderer_->show_film(film_.name());
+    // What builds up over frames now is exposure alone; a first frame has it whole.
+    auto image = draw_settled(pose, width, height, time, 2);
+    renderer_->show_film(0);
+    return image;
 }
 
 Result<render::Image> Still::draw_settled(const CameraPose& pose, u32 width, u32 height, float time, u32 frames) {

@@ -5,10 +5,12 @@
 #include "client/frame_builder.h"
 #include "client/local_game.h"
 #include "client/section_feeder.h"
+#include "client/trace_feeder.h"
 #include "platform/headless.h"
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct StillOptions {
     render::Effects effects = render::preset_effects(render::Preset::high);
     std::string shader_folder; // see render::RendererOptions
     std::vector<std::string> packs; // resource packs, the later over the earlier
+    std::optional<trace::Device> trace; // pictures are traced, on this device; else rasterized
     double seconds_most = 600; // for the world to arrive
     const std::atomic<bool>* stop = nullptr; // where it turns true, opening ends with an error
 };
@@ -47,6 +50,10 @@ public:
     // GPU milliseconds by pass, in the passes' order; the least of a few frames, drawn for it.
     Result<std::vector<std::pair<std::string, double>>> time_passes(const CameraPose& pose, u32 width, u32 height, float time);
 
+    // The path tracer, where it was asked for: one more frame of samples, and the picture so far as the eye shows it.
+    Result<> trace(const CameraPose& pose, u32 width, u32 height, float time, const trace::TraceSettings& settings);
+    Result<render::Image> develop(const CameraPose& pose, u32 width, u32 height, float time);
+    trace::Tracer& tracer() { return *tracer_; }
     render::Renderer& renderer() { return *renderer_; }
     const scene::PackLooks* packs() const { return packs_.get(); } // null without
     SectionFeeder& feeder() { return *feeder_; }
@@ -57,12 +64,16 @@ public:
 private:
     Still() = default;
     Result<> wait_complete(const StillOptions& options);
+    scene::FrameView frame_at(const CameraPose& pose, u32 width, u32 height, float time);
     std::unique_ptr<platform::HeadlessContext> context_;
     std::string scratch_folder_; // of a world kept nowhere, removed at the end
     std::unique_ptr<LocalGame> game_;
     std::unique_ptr<ThreadPool> pool_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<SectionFeeder> feeder_;
+    std::unique_ptr<trace::Tracer> tracer_;
+    std::unique_ptr<TraceFeeder> trace_feeder_;
+    gfx::Texture film_;
     std::shared_ptr<const scene::PackLooks> packs_;
     u32 view_distance_ = 12;
     StillTimes times_;

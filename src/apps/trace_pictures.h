@@ -1,0 +1,28 @@
+// `vitrail render --renderer trace`: samples until there are enough, with progress; then the picture.
+#pragma once
+
+#include "client/still.h"
+
+namespace vitrail::apps {
+
+struct TracedPicture {
+    u32 width = 854, height = 480;
+    float time = 6000;
+    u32 spp = 64;
+    u32 bounces = 4;
+    bool denoise = true;
+    u32 seed = 0;
+    bool progress = true; // on standard error
+};
+
+struct TracedStats {
+    u64 rays = 0, paths = 0;
+    double seconds = 0;
+};
+
+// Traces; afterwards Still::develop gives what the eye sees, Still::tracer().read the layers. Errors: the tracer's;
+// denied where `stop` turned true.
+Result<TracedStats> trace_picture(client::Still& still, const client::CameraPose& pose, const TracedPicture& wanted,
+                                  const std::atomic<bool>& stop);
+
+} // namespace vitrail::apps
