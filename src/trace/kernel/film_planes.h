@@ -47,7 +47,7 @@ struct FilmHistory {
     Vec4* light = nullptr; // mean over the history; its length in frames
     Vec4* fast = nullptr;  // mean over the last few frames; mean of the squared luminance of `light`
     Vec4* air = nullptr;   // mean; mean luminance of `light`, as the moments count it
-    Vec4* color = nullptr; // antialiased picture; distance in blocks
+    Vec4* color = nullptr; // antialiased picture; how often the pixel shows another surface (resolve.h)
 };
 
 struct FilmPlanes {

@@ -59,10 +59,50 @@ VX_HD Vec3 unsqueezed(Vec3 c) {
     return rgb * (1 / larger(1e-4f, 1 - luma(rgb)));
 }
 
+// Where a path chooses between mirror and passage (water, glass), a pixel shows now one surface, now another, and what
+// it shows (base, guides) is noise, too. flips: in how many frames of late it was another than just before, which goes
+// from frame to frame with the picture. Silhouettes flip under jitter, but they are thin lines. Returns 0..1: how sure
+// it is that all around flips.
+VX_HD float see_through(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y, float depth, float& flips) {
+    const Earlier e = earlier_place(f, float(x), float(y), depth);
+    const i32 ex = i32(std::floor(e.x + 0.5f)), ey = i32(std::floor(e.y + 0.5f));
+    if (!(e.depth >= 0) || ex < 0 || ey < 0 || ex >= i32(p.width) || ey >= i32(p.height)) return 0;
+    const i32 j = framed_at(p, x, y);
+    const float there = p.before.inverse_depth[framed_at(p, ex, ey)];
+    const float slope = std::fabs(p.slope_x[j]) + std::fabs(p.slope_y[j]);
+    const float other = std::fabs(there - e.depth) > 0.05f * larger(there, e.depth) + 2 * slope ? 1.0f : 0.0f;
+    const Vec4* past = p.past.color + level_at(p, ex, ey);
+    flips = lerp(past[0].w, other, 0.08f);
+    const i64 left = ex > 1 ? -2 : 0, right = ex + 2 < i32(p.width) ? 2 : 0, up = ey > 1 ? -2 * i64(p.width) : 0,
+              down = ey + 2 < i32(p.height) ? 2 * i64(p.width) : 0;
+    const float least =
+        smaller(past[0].w, smaller(smaller(past[left].w, past[right].w), smaller(past[up].w, past[down].w)));
+    return smoothstep(0.01f, 0.06f, least);
+}
+
+// Mean of 3x3 pixels before antialiasing.
+VX_HD Vec4 mean_around(const FilmPlanes& p, i32 x, i32 y) {
+    Vec3 sum;
+    for (i32 k = 0; k < 9; ++k) {
+        const i32 qx = x + k % 3 - 1, qy = y + k / 3 - 1;
+        const Vec4 c = p.merged[level_at(p,
+                                         qx < 0               ? 0
+                                         : qx >= i32(p.width) ? x
+                                                              : qx,
+                                         qy < 0                ? 0
+                                         : qy >= i32(p.height) ? y
+                                                               : qy)];
+        sum += unsqueezed({c.x, c.y, c.z});
+    }
+    sum = sum * (1.0f / 9);
+    return {sum.x, sum.y, sum.z, 0};
+}
+
 // Antialiasing in time, and the plain mean as it becomes better than the filtered picture.
 VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) {
     const u32 i = level_at(p, x, y);
-    const Vec4 now = p.color[i], own = p.merged[i];
+    Vec4 now = p.color[i];
+    const Vec4 own = p.merged[i];
     Vec4 sum, squares;
     const i32 left = x > 0 ? x - 1 : 0, right = x + 1 < i32(p.width) ? x + 1 : x, up = y > 0 ? y - 1 : 0,
               below = y + 1 < i32(p.height) ? y + 1 : y;
@@ -86,6 +126,9 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
     const i32 column = nearest_at % 3, row = nearest_at / 3;
     const i32 nx = column == 0 ? left : column == 1 ? x : right, ny = row == 0 ? up : row == 1 ? y : below;
     if (nearest_at == 4) nearest = own.w;
+    float flips = 0;
+    const float mixed = f.history ? see_through(p, f, x, y, own.w, flips) : 0.0f;
+    if (mixed > 0) now = toward(now, mean_around(p, x, y), mixed);
     Vec4 out = now;
     const Earlier e = f.history ? earlier_place(f, float(nx), float(ny), nearest) : Earlier{};
     const float ex = e.x + float(x - nx), ey = e.y + float(y - ny);
@@ -112,10 +155,10 @@ VX_HD void resolve_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
                   down = y > 1 && y + 2 < i32(p.height) ? 2 * p.width : 0;
         const float known = larger(h[0].w, larger(larger(h[-across].w, h[across].w), larger(h[-down].w, h[down].w)));
         const float part = larger(1 / clamp(calm, f.rest ? 10.0f : 6.0f, 512), 1 / (1 + known));
-        out = toward(past, now, part);
+        out = toward(past, now, lerp(part, smaller(part, 0.07f), mixed));
     }
     const float distance = p.albedo[i].w;
-    out.w = distance;
+    out.w = flips;
     p.next.color[i] = out;
     Vec4 shown = out;
     if (f.to_mean > 0 && p.sum[i].w > 0) shown = toward(shown, mean_of(p, i), f.to_mean);
