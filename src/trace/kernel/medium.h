@@ -12,8 +12,10 @@ inline constexpr u32 kTintWater = 3; // TintKind
 // has the color of the place where the stretch begins.
 VX_HD scene::LiquidOptics medium_optics(const SceneView& s, Place at, u32 medium) {
     const MediumRecord& m = s.media[medium];
-    if (m.tinted) return scene::water_optics(biome_tint(s.grid, kTintWater, at));
-    return {m.absorption, m.scattering};
+    scene::LiquidOptics o{m.absorption, m.scattering};
+    if (m.tinted) o = scene::water_optics(biome_tint(s.grid, kTintWater, at));
+    o.absorption = o.absorption + o.scattering; // what is scattered is lost to the ray too
+    return o;
 }
 
 // Share of light left after `length` blocks.

@@ -68,7 +68,7 @@ double Reference::density(Place at) const {
 
 Vec3 Reference::left(const Ray& ray, float length, u32 medium, bool mist) const {
     if (medium) {
-        const Vec3 a = scene_.media[medium].absorption;
+        const Vec3 a = scene_.media[medium].absorption + scene_.media[medium].scattering;
         const double l = length;
         return {float(std::exp(-double(a.x) * l)), float(std::exp(-double(a.y) * l)),
                 float(std::exp(-double(a.z) * l))};
