@@ -49,6 +49,11 @@ TextureArt read_texture(const BlockRegistry& registry, const std::string& name, 
         out.albedo = read_quietly(stem + ".png");
         if (out.albedo.width == 0) continue;
         out.normal = read_quietly(stem + "_n.png");
+        // Content's maps have green up, as most tools paint them; resource packs' and ours in memory have it down.
+        for (u32 i = 0; i < out.normal.width * out.normal.height; ++i) {
+            u8& green = out.normal.pixels[std::size_t(i) * out.normal.channels + 1];
+            green = u8(std::min(256 - green, 255));
+        }
         out.roughness = read_quietly(stem + "_r.png");
         out.emission = read_quietly(stem + "_e.png");
         if (const u32 count = std::min(frames_of(out.albedo), kContentFramesMost); count > 1)
