@@ -187,7 +187,8 @@ void ContentTables::set_emission(StateRecord& r, const StateInfo& info) {
                 textures_.derive_emission(q.texture, hue);
             ++texture_generation_;
         }
-        emission = lamp_emission(light, pieces, textures_.view(), tints_.data());
+        const bool clear = r.optics == u8(Optics::dielectric) || r.optics == u8(Optics::water);
+        emission = lamp_emission(light, pieces, textures_.view(), tints_.data(), clear ? kClearMost : kRadianceMost);
     }
     const float parts[3] = {emission.x, emission.y, emission.z};
     for (u32 c = 0; c < 3; ++c)

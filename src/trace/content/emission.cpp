@@ -102,7 +102,7 @@ std::array<Vec3, 6> wall_returns(std::span<const TraceQuad> pieces, Vec3 emissio
 }
 
 Vec3 lamp_emission(const std::array<u8, 3>& levels, std::span<const TraceQuad> pieces, const TextureView& textures,
-                   const u32* fixed_tints) {
+                   const u32* fixed_tints, float radiance_most) {
     const u32 strongest = std::max({levels[0], levels[1], levels[2]});
     const std::array<Vec3, 6> plain = wall_returns(pieces, {1, 1, 1}, textures, fixed_tints);
     const Vec3 seen =
@@ -124,7 +124,7 @@ Vec3 lamp_emission(const std::array<u8, 3>& levels, std::span<const TraceQuad> p
         each_place(q, textures, fixed_tints, [&](Vec3, float, float, Vec3 radiance, float) {
             brightest = std::max(brightest, luminance(radiance * out));
         });
-    return brightest > kRadianceMost ? out * (kRadianceMost / brightest) : out;
+    return brightest > radiance_most ? out * (radiance_most / brightest) : out;
 }
 
 TraceQuad quad_of_face(u64 look) {

@@ -17,6 +17,7 @@
 namespace vitrail::trace {
 
 inline constexpr float kRadianceMost = 100;
+inline constexpr float kClearMost = 4; // of clear bodies, which should still be seen through
 inline constexpr float kGlow = 0.25f;
 
 // What the wall is to return, luminance; 1 for level 15.
@@ -29,7 +30,7 @@ std::array<Vec3, 6> wall_returns(std::span<const TraceQuad> pieces, Vec3 emissio
 
 // The emission of a state. levels: r, g, b, 0..15, not all 0. 0 where no texel shines.
 Vec3 lamp_emission(const std::array<u8, 3>& levels, std::span<const TraceQuad> pieces, const TextureView& textures,
-                   const u32* fixed_tints);
+                   const u32* fixed_tints, float radiance_most = kRadianceMost);
 
 // The face of a cube as a quad.
 TraceQuad quad_of_face(u64 look);

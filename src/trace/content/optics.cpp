@@ -66,19 +66,17 @@ MediumRecord medium_of(const BlockLook& look, PictureMean mean) {
     MediumRecord m;
     m.kind = 2;
     m.ior = ior_of(look, Optics::dielectric);
-    // Hue of the picture, deeper the less clear it is painted: half clear takes what a stained window of one block
-    // would.
+    // Hue of the picture, deeper the less clear it is painted: a crystal of one block takes what a stained window
+    // would. Ice is nearly white in such depths; what is cloudy sends back its color by scattering, too.
+    const bool crystal = look.material == "crystal" || look.material == "glass", ice = look.material == "ice";
     const float most = std::max({mean.color.x, mean.color.y, mean.color.z, 1e-3f});
-    const float depth = 1.6f * mean.alpha;
-    const auto taken = [&](float c) { return depth * -std::log(std::clamp(c / most, 0.02f, 1.0f)) + 0.05f * depth; };
+    const float depth = (crystal ? 1.6f : ice ? 0.45f : 0.8f) * mean.alpha;
+    const auto taken = [&](float c) { return depth * (0.05f - std::log(std::clamp(c / most, 0.02f, 1.0f))); };
     m.absorption = {taken(mean.color.x), taken(mean.color.y), taken(mean.color.z)};
-    if (look.material == "ice") {
-        // Bubbles and cracks: white, and thin enough to see what lies behind a block of it.
-        m.absorption = m.absorption * 0.5f;
-        m.scattering = Vec3{0.30f, 0.33f, 0.36f} * (2 * mean.alpha);
-    } else if (look.material != "crystal" && look.material != "glass") {
-        m.scattering = mean.color * (0.5f * mean.alpha / most); // slime and honey are cloudy
-    }
+    if (ice)
+        m.scattering = Vec3{0.30f, 0.33f, 0.36f} * (2 * mean.alpha); // bubbles and cracks
+    else if (!crystal)
+        m.scattering = mean.color * (0.5f * mean.alpha / most);
     if (look.absorption != std::array<float, 3>{})
         m.absorption = {look.absorption[0], look.absorption[1], look.absorption[2]};
     return m;
