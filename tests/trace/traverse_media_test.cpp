@@ -308,7 +308,8 @@ TEST(TraverseMedia, EntityBoxes) {
     const SceneView bare = world.scene();
     u32 met = 0;
     for (u32 i = 0; i < 400; ++i) {
-        const Ray ray = test_ray(rng, world, 0);
+        Ray ray = test_ray(rng, world, 0);
+        if (i % 2) ray.dir = normalized(offset(ray.from, boxes[i % 16].least) + boxes[i % 16].size * 0.5f);
         float nearest = kFar;
         u32 which = 0;
         for (u32 b = 0; b < 16; ++b) {

@@ -13,7 +13,7 @@ namespace vitrail::trace::stream {
 
 namespace {
 
-constexpr u32 kLanes = 16, kGroups = 3, kRefillFrom = 5; // lanes idle
+constexpr u32 kLanes = 16, kGroups = 4, kRefillFrom = 5; // lanes idle
 constexpr u32 kBlock = 256;                              // rays made ready at once
 constexpr float kTieShare = 1e-6f;                       // of a distance: more than two distances' rounding
 constexpr float kNearPlane = 1e-6f;                      // blocks a block of distance: more than a position's rounding
@@ -37,12 +37,17 @@ struct alignas(64) Group {
     __m512i shift; // of the octant's bits in skip words
     __m512i axis;  // crossed last
     __m512i id;
-    __mmask16 live = 0, fresh = 0;
+    // Between the parts of a step.
+    __m512i word, mask, bit; // of the brick; half of its cells; which of them
+    __mmask16 live = 0, fresh = 0, beyond = 0, before = 0;
 };
 
-struct Stopped {
-    i32 cell[3]; // relative to the start, not mirrored
-    u32 id, axis;
+// Lanes whose ray stopped, to be looked at together.
+struct alignas(64) Stopped {
+    static constexpr u32 kRoom = 256;
+    i32 cell[3][kRoom + kLanes]; // relative to the start, not mirrored
+    u32 id[kRoom + kLanes], axis[kRoom + kLanes];
+    u32 count = 0;
 };
 
 VX_HD i32 lane_of(const __m512i& v, u32 lane) {
@@ -79,8 +84,8 @@ VX_HD bool out_of(const Range& r, IVec3 c) {
 }
 
 // The next rays of the stream that may go by lanes; others are done at once (`alone`).
-template <class Alone>
-VX_HD void make_ready(const Rays& r, u32& from, Block& b, Alone&& alone) {
+template <class OnReady, class Alone>
+VX_HD void make_ready(const Rays& r, u32& from, Block& b, OnReady&& on_ready, Alone&& alone) {
     b.next = b.count = 0;
     while (b.count < kBlock && from < r.count) {
         const u32 i = from++;
@@ -88,6 +93,7 @@ VX_HD void make_ready(const Rays& r, u32& from, Block& b, Alone&& alone) {
             alone(i);
             continue;
         }
+        on_ready(i);
         const Ray& ray = r.rays[i];
         const u32 n = b.count++;
         b.cell[0][n] = ray.from.cell.x, b.cell[1][n] = ray.from.cell.y, b.cell[2][n] = ray.from.cell.z;
@@ -148,10 +154,8 @@ struct Events {
     __mmask16 unsure = 0;  // this step is to be made by scalar code
 };
 
-// One step of every lane.
-VX_HD Events step(Group& g, const GridView& grid, const Range& range) {
-    Events e;
-    const __mmask16 live = g.live;
+// A step in three parts, so that loads of all groups are under way at once. First: the word of each lane's brick.
+VX_HD void load_words(Group& g, const GridView& grid, const Range& range) {
     __mmask16 beyond = 0, before = 0;
     __m512i cell[3];
     for (u32 axis = 0; axis < 3; ++axis) {
@@ -160,14 +164,12 @@ VX_HD Events step(Group& g, const GridView& grid, const Range& range) {
         before = __mmask16(before | _mm512_movepi32_mask(in));
         cell[axis] = _mm512_xor_si512(g.a[axis], g.sign[axis]);
     }
-    e.gone = __mmask16(beyond & live);
-    e.before = __mmask16(before & live & ~beyond);
-    const __mmask16 on = __mmask16(live & ~beyond & ~before);
-
+    g.beyond = __mmask16(beyond & g.live);
+    g.before = __mmask16(before & g.live & ~beyond);
+    const __mmask16 on = __mmask16(g.live & ~beyond & ~before);
     // The brick's word: slot of the chunk, brick in it.
     const auto bits = [](__m512i v, u32 mask) { return _mm512_and_si512(v, _mm512_set1_epi32(i32(mask))); };
     const auto left = [](__m512i v, u32 by) { return _mm512_sll_epi32(v, _mm_cvtsi32_si128(i32(by))); };
-    const auto right = [](__m512i v, u32 by) { return _mm512_srl_epi32(v, _mm_cvtsi32_si128(i32(by))); };
     const u32 mx = (1u << grid.bits_x) - 1, my = (1u << grid.bits_y) - 1, mz = (1u << grid.bits_z) - 1;
     __m512i index = _mm512_slli_epi32(bits(cell[0], mx << 4), 2); // slot << 6
     index = _mm512_or_si512(index, left(bits(cell[2], mz << 4), grid.bits_x + 2));
@@ -175,24 +177,34 @@ VX_HD Events step(Group& g, const GridView& grid, const Range& range) {
     const __m512i brick = _mm512_or_si512(_mm512_or_si512(_mm512_srli_epi32(bits(cell[0], 12), 2), bits(cell[2], 12)),
                                           _mm512_slli_epi32(bits(cell[1], 12), 2));
     index = _mm512_or_si512(index, brick);
-    const __m512i word =
+    g.word =
         _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), on, index, reinterpret_cast<const int*>(grid.skips), 4);
-    const __mmask16 filled = _mm512_movepi32_mask(word);
-    (void)right;
+    g.bit = _mm512_or_si512(_mm512_or_si512(bits(cell[0], 3), _mm512_slli_epi32(bits(cell[2], 3), 2)),
+                            _mm512_slli_epi32(bits(cell[1], 3), 4));
+}
 
-    // Bricks with anything in them: the cell's bit.
-    if (filled) {
-        const __m512i low5 = _mm512_or_si512(_mm512_or_si512(bits(cell[0], 3), _mm512_slli_epi32(bits(cell[2], 3), 2)),
-                                             _mm512_slli_epi32(bits(cell[1], 1), 4));
-        const __m512i half = _mm512_srli_epi32(bits(cell[1], 2), 1);
-        const __m512i at = _mm512_or_si512(_mm512_slli_epi32(word, 1), half);
-        const __m512i mask = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), filled, at,
-                                                         reinterpret_cast<const int*>(grid.masks), 4);
-        const __mmask16 set = _mm512_mask_test_epi32_mask(filled, _mm512_srlv_epi32(mask, low5), _mm512_set1_epi32(1));
-        e.inside = __mmask16(set & g.fresh);
-        e.stopped = __mmask16(set & ~g.fresh);
-    }
+// Second: bricks with anything in them: the half of their mask that has the cell's bit.
+VX_HD void load_masks(Group& g, const GridView& grid) {
+    const __mmask16 filled = _mm512_movepi32_mask(g.word);
+    const __m512i at = _mm512_or_si512(_mm512_slli_epi32(g.word, 1), _mm512_srli_epi32(g.bit, 5));
+    g.mask =
+        _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), filled, at, reinterpret_cast<const int*>(grid.masks), 4);
+}
+
+// Third: the step itself.
+VX_HD Events step(Group& g) {
+    Events e;
+    const __mmask16 on = __mmask16(g.live & ~g.beyond & ~g.before);
+    e.gone = g.beyond, e.before = g.before;
+    const auto bits = [](__m512i v, u32 mask) { return _mm512_and_si512(v, _mm512_set1_epi32(i32(mask))); };
+    const __m512i word = g.word;
+    const __mmask16 filled = _mm512_movepi32_mask(word);
+    const __mmask16 set =
+        _mm512_mask_test_epi32_mask(filled, _mm512_srlv_epi32(g.mask, bits(g.bit, 31)), _mm512_set1_epi32(1));
+    e.inside = __mmask16(set & g.fresh);
+    e.stopped = __mmask16(set & ~g.fresh);
     g.fresh = __mmask16(g.fresh & ~on);
+    __m512i cell[3];
 
     // The box to leave: a cell, or a cube of empty bricks.
     const __mmask16 wide = __mmask16(~filled);
@@ -260,64 +272,78 @@ VX_HD bool step_exactly(Group& g, u32 lane, const GridView& grid, const Ray& ray
     return w.t < double(t_max);
 }
 
-// Runs rays by lanes. stopped(id, cell relative to the start, axis): a cell stops the ray; nothing(id); alone(id): not
-// for lanes.
-template <class OnStopped, class OnNothing, class Alone>
-VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnNothing&& on_nothing, Alone&& alone) {
+// Runs rays by lanes, whose results say "nothing" beforehand. stopped(id, cell relative to the start, axis): a cell
+// stops the ray; ready(id): a ray is taken; alone(id): it is not for lanes.
+template <class OnStopped, class OnReady, class Alone>
+VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnReady&& on_ready, Alone&& alone) {
     const Range range{{grid.least.x * 16, grid.least.y * 16, grid.least.z * 16},
                       {i32(grid.extent_x * 16), i32(grid.extent_y * 16), i32(grid.extent_z * 16)}};
     const IVec3 least{range.least[0], range.least[1], range.least[2]},
         size{range.size[0], range.size[1], range.size[2]};
     Block block;
+    Stopped stopped;
     Group groups[kGroups];
     for (Group& g : groups)
         __builtin_memset(static_cast<void*>(&g), 0, sizeof g);
+    const auto look = [&] {
+        for (u32 i = 0; i < stopped.count; ++i) {
+            const i32 cell[3] = {stopped.cell[0][i], stopped.cell[1][i], stopped.cell[2][i]};
+            on_stopped(stopped.id[i], cell, stopped.axis[i]);
+        }
+        stopped.count = 0;
+    };
     u32 from = 0;
-    u32 busy = kGroups;
-    while (busy != 0) {
-        busy = 0;
+    for (;;) {
+        u32 live = 0;
         for (Group& g : groups) {
-            const u32 idle = kLanes - u32(__builtin_popcount(g.live));
-            if (idle >= kRefillFrom) {
-                if (block.next == block.count) make_ready(r, from, block, alone);
+            if (kLanes - u32(__builtin_popcount(g.live)) >= kRefillFrom) {
+                if (block.next == block.count) make_ready(r, from, block, on_ready, alone);
                 if (block.next != block.count) refill(g, block, range);
             }
-            if (g.live == 0) continue;
-            ++busy;
-            const Events e = step(g, grid, range);
+            live |= g.live;
+            load_words(g, grid, range);
+        }
+        if (live == 0) break;
+        for (Group& g : groups)
+            load_masks(g, grid);
+        for (Group& g : groups) {
+            const Events e = step(g);
             __mmask16 ended = __mmask16(e.gone | e.stopped | e.inside);
-            for (u32 m = e.stopped; m; m &= m - 1) {
-                const u32 lane = u32(__builtin_ctz(m));
-                i32 cell[3];
+            if (e.stopped) {
+                const u32 n = stopped.count;
                 for (u32 axis = 0; axis < 3; ++axis)
-                    cell[axis] = (lane_of(g.a[axis], lane) - lane_of(g.base[axis], lane)) ^ lane_of(g.sign[axis], lane);
-                on_stopped(u32(lane_of(g.id, lane)), cell, u32(lane_of(g.axis, lane)));
+                    _mm512_storeu_si512(
+                        &stopped.cell[axis][n],
+                        _mm512_maskz_compress_epi32(
+                            e.stopped, _mm512_xor_si512(_mm512_sub_epi32(g.a[axis], g.base[axis]), g.sign[axis])));
+                _mm512_storeu_si512(&stopped.id[n], _mm512_maskz_compress_epi32(e.stopped, g.id));
+                _mm512_storeu_si512(&stopped.axis[n], _mm512_maskz_compress_epi32(e.stopped, g.axis));
+                stopped.count += u32(__builtin_popcount(e.stopped));
+                if (stopped.count > Stopped::kRoom) look();
             }
-            for (u32 m = e.gone; m; m &= m - 1)
-                on_nothing(u32(lane_of(g.id, u32(__builtin_ctz(m)))));
-            for (u32 m = e.inside; m; m &= m - 1)
-                alone(u32(lane_of(g.id, u32(__builtin_ctz(m)))));
-            for (u32 m = e.unsure; m; m &= m - 1) {
-                const u32 lane = u32(__builtin_ctz(m)), id = u32(lane_of(g.id, lane));
-                if (step_exactly(g, lane, grid, r.rays[id], t_max_of(r, id))) continue;
-                ended = __mmask16(ended | 1u << lane);
-                on_nothing(id);
-            }
-            for (u32 m = e.before; m; m &= m - 1) {
-                const u32 lane = u32(__builtin_ctz(m)), id = u32(lane_of(g.id, lane));
-                Walk w = walk_of(g, lane, r.rays[id]);
-                bool comes = true;
-                while (comes && out_of(range, w.cell()))
-                    comes = approach(least, size, r.rays[id], w) && w.t < double(t_max_of(r, id));
-                g.fresh = __mmask16(g.fresh & ~(1u << lane));
-                put_walk(g, lane, w);
-                if (comes) continue;
-                ended = __mmask16(ended | 1u << lane);
-                on_nothing(id);
+            if (__builtin_expect(e.inside | e.unsure | e.before, 0)) {
+                for (u32 m = e.inside; m; m &= m - 1)
+                    alone(u32(lane_of(g.id, u32(__builtin_ctz(m)))));
+                for (u32 m = e.unsure; m; m &= m - 1) {
+                    const u32 lane = u32(__builtin_ctz(m)), id = u32(lane_of(g.id, lane));
+                    if (!step_exactly(g, lane, grid, r.rays[id], t_max_of(r, id)))
+                        ended = __mmask16(ended | 1u << lane);
+                }
+                for (u32 m = e.before; m; m &= m - 1) {
+                    const u32 lane = u32(__builtin_ctz(m)), id = u32(lane_of(g.id, lane));
+                    Walk w = walk_of(g, lane, r.rays[id]);
+                    bool comes = true;
+                    while (comes && out_of(range, w.cell()))
+                        comes = approach(least, size, r.rays[id], w) && w.t < double(t_max_of(r, id));
+                    g.fresh = __mmask16(g.fresh & ~(1u << lane));
+                    put_walk(g, lane, w);
+                    if (!comes) ended = __mmask16(ended | 1u << lane);
+                }
             }
             g.live = __mmask16(g.live & ~ended);
         }
     }
+    look();
 }
 
 // A lane's place in the scalar walk.
