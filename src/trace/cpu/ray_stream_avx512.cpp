@@ -1,4 +1,4 @@
-// Streams of rays through air, 16 lanes wide (AVX-512), several groups of lanes in flight so that loads overlap.
+// Streams of rays through air, 16 lanes wide (AVX-512), several groups of lanes in flight so that their loads overlap.
 //
 // A lane makes the same steps as next_in_air (trace/kernel/grid_walk.h), in float; where float is not sure which plane
 // comes first or on which side of a plane the ray is, that lane's step is made by the scalar code instead, in double.
@@ -13,7 +13,7 @@ namespace vitrail::trace::stream {
 
 namespace {
 
-constexpr u32 kLanes = 16, kGroups = 4, kRefillFrom = 5; // lanes idle
+constexpr u32 kLanes = 16, kGroups = 8, kRefillFrom = 5; // lanes idle
 constexpr u32 kBlock = 256;                              // rays made ready at once
 constexpr float kTieShare = 1e-6f;                       // of a distance: more than two distances' rounding
 constexpr float kNearPlane = 1e-6f;                      // blocks a block of distance: more than a position's rounding
