@@ -63,6 +63,34 @@ void stream_shadow(bench::Context& c) {
     });
 }
 
+// A block placed and broken again, with all that follows from it. high: alone in the air, where an empty brick fills.
+void edits(bench::Context& c, bool high) {
+    bench::RayScene scene;
+    scene.grid.refresh();
+    Rng rng(5);
+    std::vector<BlockPos> places;
+    for (u32 i = 0; i < 64; ++i) {
+        const i32 x = 100 + i32(rng.below(300)), z = 100 + i32(rng.below(300));
+        places.push_back({x, bench::SampleLand::height(x, z) + (high ? 40 : 1), z});
+    }
+    c.measure(double(places.size() * 2), [&] {
+        for (const BlockPos at : places)
+            for (const StateId state : {StateId(2), StateId::air}) {
+                scene.grid.apply(EditBatch{{{at, state}}});
+                scene.grid.refresh();
+                scene.grid.clean();
+            }
+    });
+}
+
+void build(bench::Context& c) {
+    bench::RayScene scene;
+    c.measure(double(bench::SampleLand::kX * bench::SampleLand::kY * bench::SampleLand::kZ), [&] {
+        scene.grid.clear();
+        scene.fill();
+    });
+}
+
 } // namespace
 
 void register_ray_benches(bench::Suite& suite) {
@@ -74,6 +102,10 @@ void register_ray_benches(bench::Suite& suite) {
     suite.add("trace.bounce2", kUnit, "once more; one core", [](bench::Context& c) { stream_closest(c, 2); });
     suite.add("trace.shadow", kUnit, "from camera rays' hits to the sun; one core",
               [](bench::Context& c) { stream_shadow(c); });
+    suite.add("trace.edit", "us", "a block placed or broken on the ground", [](bench::Context& c) { edits(c, false); });
+    suite.add("trace.edit_high", "us", "in open air, where a brick was empty",
+              [](bench::Context& c) { edits(c, true); });
+    suite.add("trace.grid", "us", "a chunk of the land into an empty grid, one core", build);
     suite.add("trace.single.primary", kUnit, "the same rays one by one",
               [](bench::Context& c) { scalar_closest(c, 0); });
     suite.add("trace.single.bounce1", kUnit, "", [](bench::Context& c) { scalar_closest(c, 1); });

@@ -14,21 +14,25 @@ RayScene::RayScene()
     states[1].kind = CellKind::cube;
     grid.set_states(states, media);
     grid.center_on({SampleLand::kX / 2, SampleLand::kY / 2, SampleLand::kZ / 2});
-    std::vector<BlockStorage> blocks;
     std::vector<StateId> cells(kChunkVolume);
     for (i32 i = 0; i < SampleLand::kX * SampleLand::kY * SampleLand::kZ; ++i) {
         for (std::size_t c = 0; c < cells.size(); ++c) {
             const u32 block = land.chunk(std::size_t(i))[c];
             cells[c] = StateId(block ? block + 1 : 0);
         }
-        blocks.push_back(BlockStorage::from_states(std::span<const StateId, kChunkVolume>(cells)));
+        blocks_.push_back(BlockStorage::from_states(std::span<const StateId, kChunkVolume>(cells)));
     }
+    fill();
+}
+
+void RayScene::fill() {
     std::vector<Grid::Item> items;
     for (i32 y = 0; y < SampleLand::kY; ++y)
         for (i32 z = 0; z < SampleLand::kZ; ++z)
             for (i32 x = 0; x < SampleLand::kX; ++x)
-                items.push_back({{x, y, z}, &blocks[SampleLand::chunk_index(x, y, z)]});
+                items.push_back({{x, y, z}, &blocks_[SampleLand::chunk_index(x, y, z)]});
     grid.set_chunks(items);
+    grid.refresh();
 }
 
 SceneView RayScene::view() {

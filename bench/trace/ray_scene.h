@@ -13,10 +13,14 @@ namespace vitrail::bench {
 struct RayScene {
     RayScene();
     trace::SceneView view();
+    void fill(); // the grid with all chunks
 
     std::vector<trace::StateRecord> states;
     std::vector<trace::MediumRecord> media;
     trace::Grid grid;
+
+private:
+    std::vector<BlockStorage> blocks_;
 };
 
 // Rays of one kind; pieces of 8 x 8 pixels follow each other, as a tracer works.

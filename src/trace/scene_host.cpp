@@ -95,6 +95,7 @@ void SceneHost::update(const scene::FrameView& frame) {
     changed_.clear();
     all_ = all_lights_ = false;
     if (!items.empty()) grid_.set_chunks(items, pool_);
+    grid_.refresh(pool_);
     lights_.update(grid_.view());
     changed_layers_.clear();
     content_.animate(frame.seconds, changed_layers_);
