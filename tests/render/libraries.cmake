@@ -1,1 +1,2 @@
 target_link_libraries(test_render PRIVATE vitrail_trace)
+target_link_libraries(test_render PRIVATE PkgConfig::OPENEXR)
