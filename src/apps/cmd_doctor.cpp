@@ -1,4 +1,5 @@
 #include "apps/commands.h"
+#include "apps/video_file.h"
 
 #include "gfx/context.h"
 #include "platform/headless.h"
@@ -26,6 +27,8 @@ Result<> run_doctor() {
     const char* wayland = std::getenv("WAYLAND_DISPLAY");
     fmt::print("display     {}\n", wayland && *wayland ? wayland : display && *display ? display : "none (pictures still work)");
     fmt::print("cuda        {}\naudio       not in this build\n", cuda_summary());
+    const std::string ffmpeg = find_ffmpeg();
+    fmt::print("ffmpeg      {}\n", ffmpeg.empty() ? "none (videos want it: apt install ffmpeg)" : ffmpeg);
     fmt::print("store       SQLite {}\n", sqlite3_libversion());
     const auto content = content_folder();
     fmt::print("content     {}\n", content ? content->string() : content.error().message);

@@ -18,9 +18,18 @@ static fs::path data_folder() {
     return fs::current_path();
 }
 
+static Result<client::TraceOptions> trace_options_of(const std::vector<std::string>& changes, const client::TraceOptions& otherwise) {
+    client::TraceOptions options = otherwise;
+    for (const std::string& change : changes) {
+        const std::size_t equals = change.find('=');
+        if (equals == std::string::npos) return fail(ErrorCode::invalid_argument, fmt::format("--trace wants KEY=VALUE, not '{}'", change));
+        VX_TRY(client::set_trace_option(options, change.substr(0, equals), change.substr(equals + 1)));
+    }
+    return options;
+}
+
 Result<> run_play(const PlayOptions& options) {
-    if (options.renderer == "trace") return fail(ErrorCode::unsupported, "the path tracer is not built yet: use --renderer raster");
-    if (options.renderer != "raster")
+    if (options.renderer != "raster" && options.renderer != "trace")
         return fail(ErrorCode::invalid_argument, fmt::format("--renderer is raster or trace, not '{}'", options.renderer));
     if (!options.connect.empty()) return fail(ErrorCode::unsupported, "play --connect: joining over the network is not built yet");
     client::GameOptions game;
@@ -43,6 +52,14 @@ Result<> run_play(const PlayOptions& options) {
     game.shader_folder = options.effects.shader_folder;
     VX_TRY(effects_of(options.effects, {})); // wrong words are told before a window opens
     game.change_effects = [arguments = options.effects](const render::Effects& kept) { return *effects_of(arguments, kept); };
+    game.trace = options.renderer == "trace";
+    game.trace_device = options.device;
+    if (game.trace) { // F5 says in the game what it cannot do; here it is told before a window opens
+        VX_TRY_ASSIGN(const trace::Device device, client::trace_device_named(options.device));
+        VX_TRY(trace::Tracer::create({.device = device}));
+    }
+    VX_TRY(trace_options_of(options.trace, {}));
+    game.change_trace = [changes = options.trace](const client::TraceOptions& kept) { return *trace_options_of(changes, kept); };
     game.screenshot_folder = data_folder() / "screenshots";
     game.pack_folder = data_folder() / "packs";
     if (const auto path = client::settings_path()) game.settings_file = *path;

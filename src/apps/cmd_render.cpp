@@ -1,8 +1,10 @@
 #include "apps/commands.h"
-#include "apps/trace_pictures.h"
+#include "apps/path_frames.h"
+#include "apps/video_file.h"
 
 #include "base/clock.h"
 #include "client/still.h"
+#include "client/traced_view.h"
 #include "gfx/context.h"
 #include "pipeline/new_world.h"
 #include "script/content_loader.h"
@@ -31,12 +33,32 @@ static Result<client::CameraPose> pose_at_spawn(const Content& content, u64 seed
     return pose;
 }
 
-// cuda where it is wanted or, for auto, where there is a device.
-static Result<trace::Device> choose_device(const std::string& wanted) {
-    if (wanted == "cpu") return trace::Device::cpu;
-    if (wanted == "cuda") return trace::Device::cuda;
-    if (wanted != "auto") return fail(ErrorCode::invalid_argument, fmt::format("--device is cpu, cuda or auto, not '{}'", wanted));
-    return trace::Tracer::create({.device = trace::Device::cuda}) ? trace::Device::cuda : trace::Device::cpu;
+static scene::CameraMoment moment_of(const client::CameraPose& pose, float time) {
+    const WorldPos& at = pose.eye.at;
+    const auto blocks = [](i64 fixed) { return double(fixed) / double(kFixedOne); };
+    return {{blocks(at.x), blocks(at.y), blocks(at.z)}, pose.yaw_deg, pose.pitch_deg, pose.fov_deg, time};
+}
+
+static Result<TracedStats> render_one(client::Still& still, const client::CameraPose& pose, const TracedPicture& picture,
+                                      const PictureOutput& output, const std::atomic<bool>& stop) {
+    TracedStats stats;
+    if (!still.traces()) {
+        VX_TRY_ASSIGN(const render::Image image, still.draw(pose, picture.width, picture.height, picture.time));
+        VX_TRY(render::write_png(output.file(0), image));
+        return stats;
+    }
+    {
+        ProgressLine progress(picture.spp, "samples a pixel");
+        VX_TRY(trace_picture(still, pose, picture, stop, progress, stats));
+    }
+    if (output.kind == PictureOutput::Kind::exr) {
+        VX_TRY(write_traced_exr(output.file(0), still.tracer(), picture.width, picture.height,
+                                {picture.spp, picture.seed, picture.bounces, picture.denoise, picture.time, pose}));
+        return stats;
+    }
+    VX_TRY_ASSIGN(const render::Image image, still.develop(pose, picture.width, picture.height, picture.time));
+    VX_TRY(render::write_png(output.file(0), image));
+    return stats;
 }
 
 Result<> run_render(const RenderOptions& wanted) {
@@ -58,12 +80,13 @@ Result<> run_render(const RenderOptions& wanted) {
     still_options.shader_folder = options.effects.shader_folder;
     still_options.packs = options.packs;
     if (options.renderer == "trace") {
-        VX_TRY_ASSIGN(still_options.trace, choose_device(options.device));
+        VX_TRY_ASSIGN(still_options.trace, client::trace_device_named(options.device));
     }
     bool from_spawn = false;
     if (options.at.empty()) {
-        if (!options.seed) return fail(ErrorCode::invalid_argument, "render --world wants --at X,Y,Z and --look YAW,PITCH");
-        from_spawn = true;
+        from_spawn = options.seed.has_value();
+        if (!from_spawn && options.path_file.empty())
+            return fail(ErrorCode::invalid_argument, "render --world wants --at X,Y,Z and --look YAW,PITCH");
     } else {
         VX_TRY_ASSIGN(const auto at, parse_numbers("--at", options.at, 3));
         still_options.pose.eye.at = world_pos_from_numbers(at[0], at[1], at[2]);
@@ -73,7 +96,14 @@ Result<> run_render(const RenderOptions& wanted) {
         VX_TRY_ASSIGN(const auto look, parse_numbers("--look", options.look, 2));
         turned = {float(std::fmod(look[0], 360.0)), float(std::clamp(look[1], -90.0, 90.0))};
     }
-    VX_TRY(check_writable(options.output));
+    const bool traces = options.renderer == "trace";
+    VX_TRY_ASSIGN(const PictureOutput output, plan_output(options.output, !options.path_file.empty(), traces));
+    VX_TRY(check_writable(output.file(0)));
+    if (output.kind == PictureOutput::Kind::video && find_ffmpeg().empty()) VX_TRY(VideoFile::open(output.before, 2, 2, 1)); // says why
+    TracedPicture picture;
+    picture.width = size.first, picture.height = size.second, picture.time = options.time;
+    picture.spp = u32(options.spp), picture.bounces = u32(options.bounces), picture.seed = u32(options.trace_seed);
+    picture.denoise = options.denoise == "on";
     if (!options.stats_file.empty()) VX_TRY(check_writable(options.stats_file));
     VX_TRY_ASSIGN(const Content content, load_base_content());
     if (from_spawn) {
@@ -81,24 +111,25 @@ Result<> run_render(const RenderOptions& wanted) {
     }
     if (turned) still_options.pose.yaw_deg = turned->first, still_options.pose.pitch_deg = turned->second;
     still_options.pose.fov_deg = options.fov_deg;
+    std::optional<PathFrames> path;
+    if (!options.path_file.empty()) {
+        VX_TRY_ASSIGN(path, open_path(options.path_file, options.fps, options.seconds, moment_of(still_options.pose, options.time)));
+        if (options.at.empty() && !from_spawn && !path->path.has_place())
+            return fail(ErrorCode::invalid_argument, fmt::format("--path {}: no key says at, and there is no --at", options.path_file));
+        path->traced = traces, path->picture = picture;
+        still_options.pose = pose_of(path->path.at(0), still_options.pose.eye.dimension);
+    }
     still_options.stop = &stop_on_signals(); // a passing world lies in a folder that must go
     VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, content));
 
     const u64 start = now_ns();
     TracedStats traced;
-    render::Image image;
-    if (still_options.trace) {
-        TracedPicture picture;
-        picture.width = size.first, picture.height = size.second, picture.time = options.time;
-        picture.spp = u32(options.spp), picture.bounces = u32(options.bounces), picture.seed = u32(options.trace_seed);
-        picture.denoise = options.denoise == "on";
-        VX_TRY_ASSIGN(traced, trace_picture(*still, still_options.pose, picture, *still_options.stop));
-        VX_TRY_ASSIGN(image, still->develop(still_options.pose, size.first, size.second, options.time));
+    if (path) {
+        VX_TRY_ASSIGN(traced, render_path(*still, *path, output, *still_options.stop));
     } else {
-        VX_TRY_ASSIGN(image, still->draw(still_options.pose, size.first, size.second, options.time));
+        VX_TRY_ASSIGN(traced, render_one(*still, still_options.pose, picture, output, *still_options.stop));
     }
     const double draw_s = seconds_since(start);
-    VX_TRY(render::write_png(options.output, image));
     if (const u32 missing = still->renderer().missing_textures(); missing > 0)
         fmt::print(stderr, "vitrail: info: {} textures are missing, the first is {}\n", missing,
                    still->renderer().missing_texture_names().front());
@@ -115,7 +146,7 @@ Result<> run_render(const RenderOptions& wanted) {
     const auto info = gfx::context_info();
     nlohmann::json stats = {{"seconds", {{"open", still->times().open_s}, {"world", still->times().world_s},
                                                {"mesh", still->times().mesh_s}, {"draw", draw_s}}},
-                                  {"frames", 1},
+                                  {"frames", path ? path->frames : 1},
                                   {"rays", traced.rays},
                                   {"chunks", frame.sections},
                                   {"chunks_visible", frame.sections_visible},

@@ -61,6 +61,9 @@ struct RenderOptions {
     float fov_deg = 70, time = 6000;
     int view_distance = 12, spp = 64, bounces = 4, trace_seed = 0;
     std::string denoise = "on";
+    std::string path_file; // a camera path: many frames
+    double fps = 30;
+    std::optional<double> seconds; // of the path; none: until its last key
     EffectArguments effects;
     std::vector<std::string> packs;
     bool demo = false;
@@ -74,6 +77,7 @@ struct PlayOptions {
     std::string device = "auto";
     EffectArguments effects; // over the settings
     std::vector<std::string> packs; // instead of the settings'
+    std::vector<std::string> trace; // KEY=VALUE, over the settings
     std::optional<u32> day_minutes; // none: as the world has it
 };
 Result<> run_play(const PlayOptions& options);

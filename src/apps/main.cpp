@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     }
     RenderOptions render;
     {
-        auto* c = app.add_subcommand("render", "Draw one picture");
+        auto* c = app.add_subcommand("render", "Draw a picture, or the frames of a camera path");
         c->add_option("--world", render.world, "world folder");
         c->add_option("--seed", render.seed, "a new world of this seed, kept nowhere")->check(seed_number());
         c->add_option("--dimension", render.dimension, "dimension name");
@@ -139,7 +139,10 @@ int main(int argc, char** argv) {
         add_effect_arguments(*c, render.effects);
         c->add_option("--pack", render.packs, "resource pack, zip or folder; several: the later covers the earlier")->allow_extra_args(false);
         c->add_option("--view-distance", render.view_distance, "chunks")->check(CLI::Range(1, 32));
-        c->add_option("--output,-o", render.output, "PNG file")->required();
+        auto* path = c->add_option("--path", render.path_file, "a camera path (docs/tracing.md): many frames");
+        c->add_option("--fps", render.fps, "frames a second of the path")->check(number_in(0.1, 240))->needs(path);
+        c->add_option("--seconds", render.seconds, "how much of the path; all where not given")->check(number_in(0, 86400))->needs(path);
+        c->add_option("--output,-o", render.output, "PNG file, or .exr (trace); of a path numbered files as frame-%04d.png, or .mp4, .webm, .mkv")->required();
         c->add_option("--stats", render.stats_file, "write figures as JSON");
         c->add_flag("--demo", render.demo, "the demo picture");
         commands.push_back({c, [&] { return run_render(render); }});
@@ -150,12 +153,13 @@ int main(int argc, char** argv) {
         c->add_option("--world", play.world, "world folder (made where there is none)");
         c->add_option("--seed", play.seed, "seed of a new world")->check(seed_number());
         c->add_option("--connect", play.connect, "HOST:PORT of a server");
-        c->add_option("--renderer", play.renderer, "raster or trace");
+        c->add_option("--renderer", play.renderer, "raster or trace; F5 changes it while playing");
         c->add_option("--size", play.size, "WxH of the window");
         c->add_option("--name", play.name, "player name");
         c->add_option("--view-distance", play.view_distance, "chunks")->check(CLI::Range(1, 32));
-        c->add_option("--device", play.device, "what makes the land: cpu, cuda or auto");
+        c->add_option("--device", play.device, "what makes the land and traces light: cpu, cuda or auto");
         add_effect_arguments(*c, play.effects);
+        c->add_option("--trace", play.trace, "KEY=VALUE of the path tracer, such as bounces=2; may be repeated")->take_all()->expected(1);
         c->add_option("--pack", play.packs, "resource pack, zip or folder; several: the later covers the earlier")->allow_extra_args(false);
         c->add_option("--day-minutes", play.day_minutes, "how long a day takes, 0 (time stands still) to 1440; kept with the world")
             ->check(CLI::Range(0, 1440));

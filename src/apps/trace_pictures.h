@@ -1,6 +1,7 @@
-// `vitrail render --renderer trace`: samples until there are enough, with progress; then the picture.
+// `vitrail render --renderer trace`: samples until there are enough, with progress.
 #pragma once
 
+#include "apps/progress_line.h"
 #include "client/still.h"
 
 namespace vitrail::apps {
@@ -12,7 +13,7 @@ struct TracedPicture {
     u32 bounces = 4;
     bool denoise = true;
     u32 seed = 0;
-    bool progress = true; // on standard error
+    bool forget = true; // earlier pictures; else they help, where the filter is on
 };
 
 struct TracedStats {
@@ -20,9 +21,9 @@ struct TracedStats {
     double seconds = 0;
 };
 
-// Traces; afterwards Still::develop gives what the eye sees, Still::tracer().read the layers. Errors: the tracer's;
-// denied where `stop` turned true.
-Result<TracedStats> trace_picture(client::Still& still, const client::CameraPose& pose, const TracedPicture& wanted,
-                                  const std::atomic<bool>& stop);
+// Traces and adds to `stats`; afterwards Still::develop gives what the eye sees, Still::tracer().read the layers.
+// Progress grows by a step a sample. Errors: the tracer's; denied where `stop` turned true.
+Result<> trace_picture(client::Still& still, const client::CameraPose& pose, const TracedPicture& wanted,
+                       const std::atomic<bool>& stop, ProgressLine& progress, TracedStats& stats);
 
 } // namespace vitrail::apps

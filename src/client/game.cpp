@@ -85,8 +85,11 @@ static Result<bool> wait_for_world(GameState& state) {
         if (!replica.poll()) return fail(ErrorCode::denied, replica.lost_reason());
         const BlockPos at = block_of(replica.body().feet.at);
         state.feeder->update(replica, at, 10);
+        feed_tracer(state, 10);
         const FeederStats stats = state.feeder->stats();
         const bool ground = replica.has_section(chunk_of(at));
+        // The tracer needs no meshes: it has what it was told.
+        if (shows_traced(state) && ground && state.traced->waiting() == 0) return true;
         if ((ground && stats.meshed > 0 && stats.waiting + stats.in_flight == 0) || seconds_since(joined) > 15) return true;
         const float done = float(stats.meshed) / float(stats.meshed + stats.waiting + stats.in_flight + 20);
         if (!draw_waiting(state, "Laying out the land", done)) return false;
@@ -130,6 +133,7 @@ static void update_world(GameState& state, float seconds) {
     state.hit = state.free_eye ? std::nullopt : pick_block(replica.dimension(), pose.eye.at, look_direction(pose.yaw_deg * kRadiansADegree, pose.pitch_deg * kRadiansADegree), kReach);
     act_on_world(state);
     state.feeder->update(replica, block_of(pose.eye.at), feed_budget_ms(seconds));
+    feed_tracer(state, trace_budget_ms(seconds));
 }
 
 static Result<> draw(GameState& state) {
@@ -138,7 +142,7 @@ static Result<> draw(GameState& state) {
                                          replica.day_ticks(), replica.view_distance(), float(state.seconds),
                                          water_tint_at(replica, block_of(camera(state).eye.at)));
     frame.gamma_exposure = state.settings.gamma;
-    if (const auto& resolution = state.settings.effects.resolution; resolution.hold > 0) {
+    if (const auto& resolution = state.settings.effects.resolution; resolution.hold > 0 && !shows_traced(state)) {
         constexpr float kLeast = 0.6f; // below it, far blocks lose their shape
         const float most = resolution.scale;
         frame.resolution = state.resolution.next(state.last_frame_ms,
@@ -155,7 +159,10 @@ static Result<> draw(GameState& state) {
         }
         frame.outlines.push_back(outline);
     }
-    if (frame.width > 0 && frame.height > 0) VX_TRY(state.renderer->render(frame, 0));
+    if (frame.width > 0 && frame.height > 0) {
+        draw_traced(state, frame);
+        VX_TRY(state.renderer->render(frame, 0));
+    }
     state.ui->begin_frame();
     draw_interface(state);
     state.ui->end_frame();
@@ -220,6 +227,8 @@ Result<> run_game(const GameOptions& options, const Content& content) {
     VX_TRY_ASSIGN(state.game, LocalGame::open(local, content));
     state.pool = std::make_unique<ThreadPool>(default_worker_count());
     state.feeder = std::make_unique<SectionFeeder>(*state.renderer, *state.pool, state.pack_looks);
+    if (options.change_trace) state.settings.trace = options.change_trace(state.settings.trace);
+    state.trace_wanted = options.trace;
     VX_TRY_ASSIGN(const bool ready, wait_for_world(state));
     Result<> played;
     if (ready) {
@@ -230,6 +239,7 @@ Result<> run_game(const GameOptions& options, const Content& content) {
         played = play(state);
     }
     state.window->capture_mouse(false);
+    state.traced.reset();
     state.feeder.reset();
     const Result<> saved = state.game->stop();
     state.hotbar.icons.clear(); // textures go before their context

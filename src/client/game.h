@@ -7,6 +7,7 @@
 #include "client/local_game.h"
 #include "client/section_feeder.h"
 #include "client/settings.h"
+#include "client/traced_view.h"
 #include "client/ui.h"
 #include "platform/window.h"
 #include "render/ui_imgui.h"
@@ -31,6 +32,9 @@ struct GameOptions {
     i32 view_distance = 0;                   // 0: as the settings say
     std::vector<std::string> packs;          // resource packs; none: as the settings say
     std::string shader_folder;               // see render::RendererOptions
+    bool trace = false;                      // begins with the path tracer
+    std::string trace_device = "auto";       // cpu, cuda or auto
+    std::function<TraceOptions(const TraceOptions&)> change_trace; // as change_effects
     // What the command line makes of the effects kept; null: nothing.
     std::function<render::Effects(const render::Effects&)> change_effects;
 };
@@ -64,6 +68,8 @@ struct GameState {
     std::unique_ptr<LocalGame> game;
     std::unique_ptr<ThreadPool> pool;
     std::unique_ptr<SectionFeeder> feeder;
+    std::unique_ptr<TracedView> traced; // null until it was wanted
+    bool trace_wanted = false;          // it is shown as soon as it is ready
 
     // Input.
     std::set<platform::Key> held;
@@ -103,6 +109,14 @@ void set_paused(GameState& state, bool paused);
 MoveCommand move_input(GameState& state); // of the keys held now; nothing while the camera is free
 void move_camera(GameState& state, float seconds); // looks by arrow keys; moves the free camera
 CameraPose camera(const GameState& state);
+
+// game_trace.cpp
+void show_traced(GameState& state, bool wanted); // says why where it cannot be
+bool shows_traced(const GameState& state);       // what is drawn now comes from the path tracer
+void draw_traced(GameState& state, scene::FrameView& frame); // where it is wanted; says why it went back to raster
+double trace_budget_ms(double frame_seconds);
+void feed_tracer(GameState& state, double budget_ms);
+std::vector<std::string> trace_lines(const GameState& state); // for the debug text
 
 // game_hud.cpp
 void draw_interface(GameState& state);

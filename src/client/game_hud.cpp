@@ -29,7 +29,7 @@ std::vector<std::string> debug_lines_left(const GameState& state) {
     const FeederStats feeder = state.feeder->stats();
     const Light light = replica.dimension().light_at({block.x, block.y, block.z});
     const ChunkPtr here = replica.dimension().find(chunk);
-    return {
+    std::vector<std::string> lines = {
         fmt::format("Vitrail  {:.0f} frames/s  {:.1f} ms", state.frame_ms > 0 ? 1000.0 / state.frame_ms : 0.0, state.frame_ms),
         fmt::format("at {}.{:03} {}.{:03} {}.{:03}", block.x, int(fraction(at.x) * 1000), block.y, int(fraction(at.y) * 1000), block.z,
                     int(fraction(at.z) * 1000)),
@@ -40,9 +40,14 @@ std::vector<std::string> debug_lines_left(const GameState& state) {
         fmt::format("time {:.0f}{}{}", replica.time_of_day(), state.time_paused ? " stopped" : "", state.free_eye ? "  free camera" : ""),
         "",
         fmt::format("drawn {} x {}", frame.width, frame.height),
-        fmt::format("sections {} of {}  draws {}  quads {}", frame.sections_visible, frame.sections, frame.draws, frame.quads),
-        fmt::format("meshing {} waiting, {} at work, {} done", feeder.waiting, feeder.in_flight, feeder.meshed),
     };
+    if (shows_traced(state)) {
+        for (std::string& line : trace_lines(state)) lines.push_back(std::move(line));
+    } else {
+        lines.push_back(fmt::format("sections {} of {}  draws {}  quads {}", frame.sections_visible, frame.sections, frame.draws, frame.quads));
+        lines.push_back(fmt::format("meshing {} waiting, {} at work, {} done", feeder.waiting, feeder.in_flight, feeder.meshed));
+    }
+    return lines;
 }
 
 std::vector<std::string> debug_lines_right(const GameState& state) {
@@ -118,6 +123,7 @@ void use_packs(GameState& state, const std::vector<std::string>& paths) {
     }
     state.pack_looks = *looks;
     state.feeder->set_packs(*looks);
+    if (state.traced) state.traced->set_packs(*looks);
     state.hotbar.icon_names.clear(); // drawn anew
     state.settings.packs = state.packs = paths;
     state.pack_page.changed = false;

@@ -61,6 +61,7 @@ static bool on_interface_action(GameState& state, Action action) {
     case Action::screenshot: state.screenshot_wanted = true; return true;
     case Action::debug_text: state.debug_text = !state.debug_text; return true;
     case Action::hide_interface: state.hide_ui = !state.hide_ui; return true;
+    case Action::renderer: show_traced(state, !state.trace_wanted); return true;
     case Action::full_screen:
         state.settings.fullscreen = !state.settings.fullscreen;
         state.window->set_fullscreen(state.settings.fullscreen);

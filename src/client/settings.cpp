@@ -25,6 +25,7 @@ Settings sane(Settings s) {
     s.frame_limit = std::clamp(s.frame_limit, 0, 1000);
     s.packs.resize(std::min<std::size_t>(s.packs.size(), 64));
     s.effects = render::sane(s.effects);
+    s.trace = sane(s.trace);
     return s;
 }
 
@@ -63,6 +64,15 @@ static std::string packs_text(const std::vector<std::string>& packs) {
     return text.str();
 }
 
+// A value as the tables of options read it; empty where it is of no kind they know.
+static std::string option_text(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) return *text;
+    if (const auto yes = node.value_exact<bool>()) return *yes ? "true" : "false";
+    if (const auto whole = node.value_exact<i64>()) return fmt::format("{}", *whole);
+    if (const auto number = node.value_exact<double>()) return fmt::format("{}", float(*number));
+    return {};
+}
+
 // quality = "PRESET" and a table [effects] of what the player changed in it.
 static void read_effects(const toml::table& table, render::Effects& effects) {
     if (const auto name = table["quality"].value<std::string>())
@@ -70,14 +80,8 @@ static void read_effects(const toml::table& table, render::Effects& effects) {
     const toml::table* changes = table["effects"].as_table();
     if (!changes) return;
     for (const render::EffectOption& option : render::effect_options()) {
-        const toml::node* node = changes->get(option.key);
-        if (!node) continue;
-        std::string value;
-        if (const auto text = node->value_exact<std::string>()) value = *text;
-        else if (const auto yes = node->value_exact<bool>()) value = *yes ? "true" : "false";
-        else if (const auto whole = node->value_exact<i64>()) value = fmt::format("{}", *whole);
-        else if (const auto number = node->value_exact<double>()) value = fmt::format("{}", float(*number));
-        (void)render::set_effect(effects, option.key, value); // what does not fit keeps the preset's value
+        // What does not fit keeps the preset's value.
+        if (const toml::node* node = changes->get(option.key)) (void)render::set_effect(effects, option.key, option_text(*node));
     }
 }
 
@@ -101,6 +105,23 @@ static std::string effects_text(const render::Effects& effects) {
                                        : fmt::format("\"{}\" = \"{}\"\n", option.key, value);
     }
     return text;
+}
+
+// A table [trace] of what is not as at first.
+static void read_trace(const toml::table& table, TraceOptions& options) {
+    const toml::table* changes = table["trace"].as_table();
+    if (!changes) return;
+    for (const TraceOption& option : trace_option_list())
+        if (const toml::node* node = changes->get(option.key)) (void)set_trace_option(options, option.key, option_text(*node));
+}
+
+static std::string trace_text(const TraceOptions& options) {
+    std::string text;
+    for (const TraceOption& option : trace_option_list()) {
+        const std::string value = trace_option_text(options, option);
+        if (value != trace_option_text({}, option)) text += fmt::format("{} = {}\n", option.key, value);
+    }
+    return text.empty() ? text : "[trace]\n" + text;
 }
 
 // A table [keys] of what is not as usual: action = "key", "" for none.
@@ -139,6 +160,7 @@ Result<Settings> load_settings(const fs::path& path) {
     });
     read_packs(table, settings.packs);
     read_effects(table, settings.effects);
+    read_trace(table, settings.trace);
     read_keys(table, settings.controls);
     return sane(settings);
 }
@@ -154,6 +176,7 @@ Result<> save_settings(const fs::path& path, const Settings& settings) {
     });
     text += packs_text(copy.packs); // before the table: keys after it would be its own
     text += effects_text(copy.effects);
+    text += trace_text(copy.trace);
     text += keys_text(copy.controls);
     std::error_code error;
     fs::create_directories(path.parent_path(), error);

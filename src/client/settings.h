@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "base/types.h"
 #include "client/controls.h"
+#include "client/trace_options.h"
 #include "render/effects.h"
 
 #include <filesystem>
@@ -20,6 +21,7 @@ struct Settings {
     bool vsync = true;
     bool fullscreen = false;
     render::Effects effects = render::preset_effects(render::Preset::high); // kept as a preset and what differs from it
+    TraceOptions trace;  // of the path tracer
     float gamma = 1;     // exposure, 0.5..2
     float ui_scale = 1;  // 0.5..3
     i32 frame_limit = 0; // frames a second, 0 none

@@ -25,7 +25,7 @@ static Result<std::string> make_scratch_folder() {
 Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Content& content) {
     const u64 start = now_ns();
     std::unique_ptr<Still> still(new Still);
-    still->view_distance_ = options.view_distance;
+    still->options_ = options;
     VX_TRY_ASSIGN(still->packs_, open_packs(options.packs, *content.registry));
     VX_TRY_ASSIGN(still->context_, platform::HeadlessContext::create());
     LocalGameOptions local;
@@ -57,12 +57,13 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Co
         tracer.device = *options.trace;
         tracer.pool = still->pool_.get();
         VX_TRY_ASSIGN(still->tracer_, trace::Tracer::create(tracer));
-        still->trace_feeder_ = std::make_unique<TraceFeeder>(*still->tracer_, *content.registry, still->packs_.get());
+        still->trace_feeder_ = std::make_unique<TraceFeeder>(*still->tracer_);
+        still->trace_feeder_->set_packs(*content.registry, still->packs_.get());
         still->feeder_->set_meshing(false);
         still->feeder_->on_dirty([feeder = still->trace_feeder_.get()](const replica::DirtySection& d) { feeder->mark(d); });
     }
     still->times_.open_s = seconds_since(start);
-    VX_TRY(still->wait_complete(options));
+    VX_TRY(still->wait_complete());
     return still;
 }
 
@@ -78,7 +79,8 @@ Still::~Still() {
     }
 }
 
-Result<> Still::wait_complete(const StillOptions& options) {
+Result<> Still::wait_complete() {
+    const StillOptions& options = options_;
     const u64 start = now_ns();
     replica::Replica& replica = game_->replica();
     const BlockPos eye = block_of(options.pose.eye.at);
@@ -92,7 +94,7 @@ Result<> Still::wait_complete(const StillOptions& options) {
             times_.world_s = seconds_since(start);
         }
         if (all_here) feeder_->update(replica, eye, 1e9); // meshed once, with all neighbors here
-        if (all_here && trace_feeder_) VX_TRY(trace_feeder_->update(replica, *feeder_, 1e9));
+        if (all_here && trace_feeder_) VX_TRY(trace_feeder_->update(replica, *feeder_, eye, 1e9));
         if (all_here && feeder_->settled() && game_->server().stats().idle) break;
         if (options.stop && *options.stop) return fail(ErrorCode::denied, "interrupted");
         if (seconds_since(start) > options.seconds_most)
@@ -103,8 +105,16 @@ Result<> Still::wait_complete(const StillOptions& options) {
     return {};
 }
 
+Result<> Still::go_to(const CameraPose& pose) {
+    const bool stays = chunk_of(block_of(pose.eye.at)) == chunk_of(block_of(options_.pose.eye.at));
+    options_.pose = pose;
+    if (stays) return {};
+    game_->server().put_everybody({options_.dimension, pose.eye.at});
+    return wait_complete();
+}
+
 scene::FrameView Still::frame_at(const CameraPose& pose, u32 width, u32 height, float time) {
-    return build_frame(pose, game_->replica().dimension(), width, height, time, view_distance_, 40,
+    return build_frame(pose, game_->replica().dimension(), width, height, time, options_.view_distance, seconds_,
                        water_tint_at(game_->replica(), block_of(pose.eye.at)));
 }
 
@@ -118,14 +128,17 @@ Result<> Still::trace(const CameraPose& pose, u32 width, u32 height, float time,
     return tracer_->render(frame_at(pose, width, height, time), settings);
 }
 
-Result<render::Image> Still::develop(const CameraPose& pose, u32 width, u32 height, float time) {
+Result<render::Image> Still::develop(const CameraPose& pose, u32 width, u32 height, float time, bool settled) {
     if (film_.width != width || film_.height != height) film_ = gfx::make_texture_2d(GL_RGBA32F, width, height);
     VX_TRY(tracer_->write_texture(film_.name()));
     renderer_->show_film(film_.name());
     // What builds up over frames now is exposure alone; a first frame has it whole.
-    auto image = draw_settled(pose, width, height, time, 2);
-    renderer_->show_film(0);
-    return image;
+    return settled ? draw_settled(pose, width, height, time, 2) : draw_next(pose, width, height, time);
+}
+
+Result<render::Image> Still::draw_next(const CameraPose& pose, u32 width, u32 height, float time) {
+    VX_TRY(draw_only(pose, width, height, time));
+    return renderer_->read_pixels();
 }
 
 Result<render::Image> Still::draw_settled(const CameraPose& pose, u32 width, u32 height, float time, u32 frames) {

@@ -45,6 +45,8 @@ public:
     // As if the eye had been there for a while: earlier frames are forgotten, and what builds up over frames (exposure,
     // antialiasing, answers to occlusion queries) has `frames` of them at one moment of animation.
     Result<render::Image> draw_settled(const CameraPose& pose, u32 width, u32 height, float time, u32 frames = 8);
+    // The frame after the last one: nothing is forgotten, one frame is drawn. For films.
+    Result<render::Image> draw_next(const CameraPose& pose, u32 width, u32 height, float time);
     // Without reading pixels back; finishes drawing. For timing.
     Result<> draw_only(const CameraPose& pose, u32 width, u32 height, float time);
     // GPU milliseconds by pass, in the passes' order; the least of a few frames, drawn for it.
@@ -52,7 +54,14 @@ public:
 
     // The path tracer, where it was asked for: one more frame of samples, and the picture so far as the eye shows it.
     Result<> trace(const CameraPose& pose, u32 width, u32 height, float time, const trace::TraceSettings& settings);
-    Result<render::Image> develop(const CameraPose& pose, u32 width, u32 height, float time);
+    // settled false: the eye grows used to light as it does while playing.
+    Result<render::Image> develop(const CameraPose& pose, u32 width, u32 height, float time, bool settled = true);
+    // Waits until the world around another place is here too. Nothing is done where the eye stays in its section. Errors:
+    // as of open.
+    Result<> go_to(const CameraPose& pose);
+    // Seconds of animation, from 0 on: waves, clouds, pictures that move.
+    void set_seconds(float seconds) { seconds_ = seconds; }
+    bool traces() const { return tracer_ != nullptr; }
     trace::Tracer& tracer() { return *tracer_; }
     render::Renderer& renderer() { return *renderer_; }
     const scene::PackLooks* packs() const { return packs_.get(); } // null without
@@ -63,7 +72,7 @@ public:
 
 private:
     Still() = default;
-    Result<> wait_complete(const StillOptions& options);
+    Result<> wait_complete();
     scene::FrameView frame_at(const CameraPose& pose, u32 width, u32 height, float time);
     std::unique_ptr<platform::HeadlessContext> context_;
     std::string scratch_folder_; // of a world kept nowhere, removed at the end
@@ -75,7 +84,8 @@ private:
     std::unique_ptr<TraceFeeder> trace_feeder_;
     gfx::Texture film_;
     std::shared_ptr<const scene::PackLooks> packs_;
-    u32 view_distance_ = 12;
+    StillOptions options_;
+    float seconds_ = 40; // some moment
     StillTimes times_;
 };
 

@@ -103,6 +103,26 @@ void draw_loading(const std::string& text, float progress) {
     list->AddRectFilled({x, y}, {x + width * std::clamp(progress, 0.0f, 1.0f), y + 8}, IM_COL32(160, 205, 235, 255), 4);
 }
 
+// A row of a table of options: render::EffectOption or TraceOption.
+template <class Option, class Values>
+static void draw_option(const Option& option, Values& values) {
+    ImGui::PushID(option.key);
+    const auto member = option.member(values);
+    if (bool* const* b = std::get_if<bool*>(&member)) ImGui::Checkbox(option.label, *b);
+    if (float* const* f = std::get_if<float*>(&member)) ImGui::SliderFloat(option.label, *f, option.least, option.most, "%.2f");
+    if (i32* const* i = std::get_if<i32*>(&member)) {
+        if (option.choices.empty()) ImGui::SliderInt(option.label, *i, int(option.least), int(option.most));
+        else ImGui::Combo(option.label, *i, option.choices.data(), int(option.choices.size()));
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", option.help);
+    ImGui::PopID();
+}
+
+static void draw_trace_options(TraceOptions& options) {
+    if (!ImGui::CollapsingHeader("Path tracer")) return;
+    for (const TraceOption& option : trace_option_list()) draw_option(option, options);
+}
+
 // A preset, and below it every effect with its numbers, from their one description.
 static void draw_effects(render::Effects& effects) {
     const auto preset = render::preset_of(effects);
@@ -120,16 +140,7 @@ static void draw_effects(render::Effects& effects) {
         const std::string_view own = key.substr(0, key.find('.'));
         if (own != group) ImGui::TextDisabled("%s", std::string(own).c_str());
         group = own;
-        ImGui::PushID(option.key);
-        const auto member = option.member(effects);
-        if (bool* const* b = std::get_if<bool*>(&member)) ImGui::Checkbox(option.label, *b);
-        if (float* const* f = std::get_if<float*>(&member)) ImGui::SliderFloat(option.label, *f, option.least, option.most, "%.2f");
-        if (i32* const* i = std::get_if<i32*>(&member)) {
-            if (option.choices.empty()) ImGui::SliderInt(option.label, *i, int(option.least), int(option.most));
-            else ImGui::Combo(option.label, *i, option.choices.data(), int(option.choices.size()));
-        }
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", option.help);
-        ImGui::PopID();
+        draw_option(option, effects);
     }
     ImGui::EndChild();
 }
@@ -193,6 +204,7 @@ MenuAction draw_pause_menu(Settings& settings, PackPage& packs) {
     ImGui::Checkbox("Wait for the screen", &next.vsync);
     ImGui::Checkbox("Invert mouse", &next.invert_y);
     draw_effects(next.effects);
+    draw_trace_options(next.trace);
     if (draw_packs(packs, settings.ui_scale)) action = MenuAction::packs_changed;
     ImGui::Separator();
     if (ImGui::Button("Save and quit", {-1, 0})) action = MenuAction::quit;

@@ -147,6 +147,14 @@ static Result<> place_at_start(const ServerWorld& world, Session& session) {
     return {};
 }
 
+void put_at_start(const ServerWorld& world, Session& session) {
+    const BodyState before = session.body;
+    session.body.velocity = {};
+    if (!place_at_start(world, session) || session.dimension() != before.feet.dimension) session.body = before;
+    session.commands.clear();
+    session.tell_body = true;
+}
+
 Result<> restore_player(ServerWorld& world, Session& session) {
     std::optional<PlayerRecord> record;
     if (const auto left = world.players_left.find(session.name); left != world.players_left.end())

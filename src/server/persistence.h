@@ -16,6 +16,8 @@ Result<> save_all(ServerWorld& world);
 void tell_kept(ServerWorld& world);
 
 PlayerRecord player_record(const Session& session);
+// Puts a player who is here to the start place (ServerOptions::start); one of another dimension leaves him where he is.
+void put_at_start(const ServerWorld& world, Session& session);
 // Puts the player where it was when it left, or at the spawn.
 Result<> restore_player(ServerWorld& world, Session& session);
 

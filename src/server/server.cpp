@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <utility>
 
 namespace vitrail::server {
 
@@ -57,6 +58,12 @@ void Server::connect(std::unique_ptr<net::Transport> transport) {
     arrivals_.push_back(std::move(transport));
 }
 
+void Server::put_everybody(const StartPlace& place) {
+    std::scoped_lock lock(arrivals_mutex_, stats_mutex_);
+    put_ = place;
+    stats_.idle = false;
+}
+
 void Server::tick_once() {
     const u64 start = now_ns(), start_cpu = thread_time_ns();
     {
@@ -68,6 +75,11 @@ void Server::tick_once() {
             world_->sessions.push_back(std::move(session));
         }
         arrivals_.clear();
+        if (put_) {
+            world_->options.start = std::exchange(put_, std::nullopt);
+            for (auto& session : world_->sessions)
+                if (session->joined) put_at_start(*world_, *session);
+        }
     }
     run_tick(*world_);
 
@@ -89,8 +101,9 @@ void Server::tick_once() {
     stats.idle = is_idle(*world_);
     stats.save_pending_bytes = world_->saves->pending_bytes();
     if (world_->tick % kTicksASecond == 0) stats.chunk_memory_bytes = chunk_memory(*world_);
-    std::lock_guard lock(stats_mutex_);
+    std::scoped_lock lock(arrivals_mutex_, stats_mutex_);
     stats_ = stats;
+    stats_.idle = stats.idle && !put_;
 }
 
 void Server::start() {

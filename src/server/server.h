@@ -86,6 +86,9 @@ public:
     void connect(std::unique_ptr<net::Transport> transport);
 
     void start();
+    // From the next tick on every player hovers here, and who joins too; a dimension that is not there leaves all as it
+    // was. Not idle until all of it has arrived. For cameras, any thread.
+    void put_everybody(const StartPlace& place);
     // Ends the thread, says goodbye to all sessions and saves everything. Errors: io, where saving failed.
     Result<> stop();
     // One tick in the calling thread; only while not started.
@@ -105,6 +108,7 @@ private:
     bool stopped_ = false;
     std::mutex arrivals_mutex_;
     std::vector<std::unique_ptr<net::Transport>> arrivals_;
+    std::optional<StartPlace> put_; // under arrivals_mutex_
     mutable std::mutex stats_mutex_;
     ServerStats stats_;
 };

@@ -56,6 +56,24 @@ TEST(Settings, KeepEffects) {
     EXPECT_TRUE(odd->effects == render::preset_effects(render::Preset::medium));
 }
 
+TEST(Settings, KeepTheTracersOptions) {
+    const fs::path path = scratch("trace");
+    Settings s;
+    s.trace.hold = 24, s.trace.scale = 0.75f, s.trace.denoise = false;
+    s.effects.bloom.strength = 0.1f; // a table before it
+    ASSERT_TRUE(s.controls.bind(Action::renderer, vitrail::platform::Key::f6)); // and one after
+    ASSERT_TRUE(save_settings(path, s));
+    const auto back = load_settings(path);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(*back == s);
+    std::ofstream(path) << "[trace]\nbounces = 99\nsamples = \"x\"\nhalf = true\nnonsense = 1\n";
+    const auto odd = load_settings(path);
+    ASSERT_TRUE(odd);
+    TraceOptions wanted;
+    wanted.half = true;
+    EXPECT_TRUE(odd->trace == wanted);
+}
+
 TEST(Settings, NoFileMeansDefaults) { EXPECT_TRUE(*load_settings(scratch("none")) == Settings{}); }
 
 TEST(Settings, OddValuesAreHeldInRangeAndOddKeysLeftAlone) {
