@@ -64,7 +64,7 @@ Place outside(const Ray& ray, const Hit& hit) {
 
 } // namespace
 
-RaySet camera_rays(RayScene& scene) {
+Camera land_camera() {
     Camera c;
     c.width = 854, c.height = 480;
     const i32 x = 256, z = 232;
@@ -75,6 +75,11 @@ RaySet camera_rays(RayScene& scene) {
     const float half = 0.7f; // 70 degrees high
     c.up = c.up * half;
     c.right = c.right * (half * 854 / 480);
+    return c;
+}
+
+RaySet camera_rays(RayScene& scene) {
+    const Camera c = land_camera();
     RaySet set;
     for (u32 by = 0; by < c.height; by += 8)
         for (u32 bx = 0; bx < c.width; bx += 8)

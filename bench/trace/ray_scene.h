@@ -30,6 +30,7 @@ struct RaySet {
 };
 
 // 854 x 480 from a hill over the land's middle.
+trace::Camera land_camera();
 RaySet camera_rays(RayScene& scene);
 // One from each place that rays of `from` hit, distributed by the cosine to its face.
 RaySet bounce_rays(RayScene& scene, const RaySet& from);

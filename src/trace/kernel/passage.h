@@ -8,6 +8,14 @@
 #include "trace/kernel/surface.h"
 #include "trace/kernel/traverse.h"
 
+// Parts of a path that are large and seldom or once run stay calls, so that the loop around them is small. A copy for
+// each source file, which may have vector flags of its own (base/hd.h).
+#ifdef __CUDACC__
+#define VX_COLD [[maybe_unused]] static __host__ __device__ __noinline__
+#else
+#define VX_COLD [[maybe_unused]] __attribute__((noinline)) static
+#endif
+
 namespace vitrail::trace {
 
 // The place of a surface point on its far side: across a cell's face it belongs to the next cell.
@@ -44,27 +52,33 @@ VX_HD Vec3 straight_through(const SurfacePoint& p, Vec3 dir) {
     }
 }
 
+// A shadow ray meets a border: value loses what it and the stretch before it take. since: where that stretch began;
+// medium: in it. True: nothing is left.
+VX_COLD bool cross_pane(const SceneView& scene, const Ray& ray, const Hit& pane, float& since, u32& medium,
+                        Vec3& value) {
+    const SurfacePoint p = surface_at(scene, ray, pane, 0.0f);
+    value = value * straight_through(p, ray.dir);
+    if (medium != 0) value = value * medium_left(scene, moved(ray.from, ray.dir, since), pane.t - since, medium);
+    since = pane.t;
+    if (p.optics != Optics::thin) medium = p.medium_behind;
+    return !(greatest(value) > 0);
+}
+
 // Light goes from `distance` ahead straight back to the ray's start, through borders; value loses what they take.
 // medium: of the start. False: none arrives.
 VX_HD bool light_passes(const SceneView& scene, const Ray& ray, float distance, u32 medium, Vec3& value) {
     const float most = distance < kFar ? distance - std::fmax(1e-3f, 1e-4f * distance) : kFar;
     if (!(most > 0)) return true;
     float since = 0;
-    const bool dark = shadowed(scene, ray, most, medium, [&](const Hit& pane) {
-        const SurfacePoint p = surface_at(scene, ray, pane, 0.0f);
-        value = value * straight_through(p, ray.dir);
-        if (medium != 0) value = value * medium_left(scene, moved(ray.from, ray.dir, since), pane.t - since, medium);
-        since = pane.t;
-        if (p.optics != Optics::thin) medium = p.medium_behind;
-        return !(greatest(value) > 0);
-    });
+    const bool dark = shadowed(scene, ray, most, medium,
+                               [&](const Hit& pane) { return cross_pane(scene, ray, pane, since, medium, value); });
     if (dark) return false;
     if (medium != 0) value = value * medium_left(scene, moved(ray.from, ray.dir, since), distance - since, medium);
     return true;
 }
 
 // What the sampled point of a lamp sends here.
-VX_HD Vec3 lamp_emission(const SceneView& scene, Place from, const EmitterSample& lamp) {
+VX_COLD Vec3 lamp_emission(const SceneView& scene, Place from, const EmitterSample& lamp) {
     return surface_at(scene, {from, lamp.dir}, lamp.hit, 0.0f).emission;
 }
 

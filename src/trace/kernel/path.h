@@ -77,6 +77,14 @@ VX_HD float luminance(Vec3 c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
+// lights.h as calls.
+VX_COLD bool find_lamp(const SceneView& scene, Place at, Vec3 side, float choose, Vec2 u, EmitterSample& out) {
+    return sample_emitter(scene, at, side, choose, u, out);
+}
+VX_COLD float chance_of_lamp(const SceneView& scene, Place at, Vec3 side, Vec3 dir, const Hit& hit, Vec3 facing) {
+    return emitter_pdf(scene, at, side, dir, hit, facing);
+}
+
 // Adds light that scattered on its way to the eye, holding single finds.
 VX_HD void add_light(Vec3& sum, Vec3 found, bool indirect, const PathSettings& settings) {
     if (indirect && settings.firefly_limit > 0) {
@@ -87,7 +95,7 @@ VX_HD void add_light(Vec3& sum, Vec3 found, bool indirect, const PathSettings& s
 }
 
 // The sky as the eye sees it; in mirrors and behind what bends the disc of sun or moon is as bright as it is.
-VX_HD Vec3 eye_sky(const SkyView& sky, Vec3 dir, float pixel, float dither, bool bent) {
+VX_COLD Vec3 eye_sky(const SkyView& sky, Vec3 dir, float pixel, float dither, bool bent) {
     const Vec3 drawn = sky_seen(sky, dir, pixel, dither);
     return bent ? drawn + sun_radiance(sky, dir) : drawn;
 }
@@ -152,7 +160,7 @@ VX_HD PixelSample trace_path(const SceneView& scene, const SkyView& sky, const C
                 float weight = 1;
                 if (path.since == Since::straight && any_lamp)
                     weight = power_heuristic(
-                        path.pdf, emitter_pdf(scene, path.ray.from, path.scatter_side, path.ray.dir, hit, p.face));
+                        path.pdf, chance_of_lamp(scene, path.ray.from, path.scatter_side, path.ray.dir, hit, p.face));
                 else if (path.since == Since::borders && any_lamp &&
                          (hit.kind == HitKind::cube || hit.kind == HitKind::quad))
                     weight = find_emitter(scene.lights, hit.cell) != kNoEmitter ? 0.0f : 1.0f;
@@ -203,7 +211,7 @@ VX_HD PixelSample trace_path(const SceneView& scene, const SkyView& sky, const C
                     dir = sun.dir, pdf = sun.pdf, value = sun.radiance;
                 } else {
                     const float which = next_1d(sampler);
-                    if (!sample_emitter(scene, from, side, which, next_2d(sampler), lamp)) continue;
+                    if (!find_lamp(scene, from, side, which, next_2d(sampler), lamp)) continue;
                     dir = lamp.dir, pdf = lamp.pdf, distance = lamp.distance;
                     value = {1, 1, 1};
                 }

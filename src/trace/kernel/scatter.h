@@ -8,7 +8,7 @@
 namespace vitrail::trace {
 
 // What is left of light after `length` blocks (kFar: from the sky) of mist or of a medium.
-VX_HD Vec3 stretch_left(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium) {
+VX_COLD Vec3 stretch_left(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium) {
     if (medium != 0) return medium_left(s, ray.from, length, medium);
     const float left = air_passes(air_stretch(sky, ray.from, ray.dir, length));
     return {left, left, left};
@@ -23,7 +23,7 @@ struct Speck {
 // Thin air is asked seldom, and counts more then.
 inline constexpr float kThinAir = 0.1f;
 
-VX_HD Speck sample_speck(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium, float u) {
+VX_COLD Speck sample_speck(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium, float u) {
     Speck out;
     if (medium != 0) {
         const scene::LiquidOptics optics = medium_optics(s, ray.from, medium);
@@ -43,8 +43,9 @@ VX_HD Speck sample_speck(const SceneView& s, const SkyView& sky, const Ray& ray,
 }
 
 // A direction from there to a light, and what it brings to the eye if nothing is in its way. False: nothing.
-VX_HD bool aim_speck(const SceneView& s, const SkyView& sky, bool lamps, const Ray& ray, u32 medium, const Speck& speck,
-                     float choose, float which, Vec2 u, Place& from, Vec3& dir, float& distance, Vec3& value) {
+VX_COLD bool aim_speck(const SceneView& s, const SkyView& sky, bool lamps, const Ray& ray, u32 medium,
+                       const Speck& speck, float choose, float which, Vec2 u, Place& from, Vec3& dir, float& distance,
+                       Vec3& value) {
     from = moved(ray.from, ray.dir, speck.distance);
     distance = kFar;
     const bool even = medium != 0;
