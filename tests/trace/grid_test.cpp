@@ -156,6 +156,7 @@ TEST(Grid, EditsEqualARebuild) {
 TEST(Grid, SkipsFollowEditsAndMoves) {
     Rng rng(16);
     const TestContent content;
+    ThreadPool pool(1);
     for (const GridShape shape : {GridShape{2, 2, 2}, GridShape{2, 2, 3}}) {
         Grid grid(shape);
         grid.set_states(content.states, content.media);
@@ -177,6 +178,7 @@ TEST(Grid, SkipsFollowEditsAndMoves) {
             if (step % 2 == 0) continue;
             center = {near(center.x, 6), near(center.y, 3), near(center.z, 12)};
             grid.center_on(center);
+            if (step > 3) grid.refresh(&pool);
             if (step > 3) expect_right_skips(grid);
         }
     }

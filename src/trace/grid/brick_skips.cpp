@@ -7,6 +7,7 @@ namespace vitrail::trace {
 namespace {
 
 constexpr std::size_t kBoxesMost = 256; // kept apart; more become one
+constexpr i64 kLarge = 2048;            // bricks: from here on threads share the work
 constexpr i32 kBack = i32(kSkipMost) - 1;
 
 i64 volume(const BrickBox& b) {
@@ -115,6 +116,7 @@ void BrickSkips::solve(const GridView& g, u32 octant, const BrickBox& box, const
         const bool write_y = y >= write.least.y && y < write.most.y;
         for (i32 k = 1; k <= nz; ++k) {
             const i32 z = z_of(k);
+            const bool write_row = write_y && z >= write.least.z && z < write.most.z;
             const u8 *a = ahead + std::size_t(k) * row, *b = a - row, *c = now + std::size_t(k - 1) * row;
             u8* to = now + std::size_t(k) * row;
             for (std::size_t i = 0; i < row; ++i)
@@ -128,12 +130,44 @@ void BrickSkips::solve(const GridView& g, u32 octant, const BrickBox& box, const
                 }
                 const u8 n = std::min(std::min(least[std::size_t(i)], least[std::size_t(i - 1)]), to[i - 1]);
                 to[i] = u8(std::min<u32>(n + 1u, kSkipMost));
-                if (!write_y) continue; // another thread's, perhaps
+                if (!write_row || x < write.least.x || x >= write.most.x) continue; // another thread's, perhaps
                 u32& word = words_[word_of(g, x, y, z)];
                 word = (word & ~(7u << shift)) | u32(to[i] - 1) << shift;
             }
         }
     }
+}
+
+// All values that a change in a large box can reach, in layers that threads share: each solves what lies ahead of its
+// own once more, as far as it matters, and reads nothing that others write.
+void BrickSkips::solve_in_layers(const GridView& g, const BrickBox& changed, ThreadPool* pool) {
+    const BrickBox window = window_of(g);
+    constexpr i32 kLayer = 16;
+    const i32 from = std::max(changed.least.y - kBack, window.least.y),
+              to = std::min(changed.most.y + kBack, window.most.y);
+    const auto solve_layer = [&](u32 layer) {
+        const i32 least = from + i32(layer) * kLayer, most = std::min(least + kLayer, to);
+        for (u32 octant = 0; octant < 8; ++octant) {
+            BrickBox write = changed;
+            (octant & 1 ? write.least.x : write.most.x) += octant & 1 ? -kBack : kBack;
+            (octant & 2 ? write.least.y : write.most.y) += octant & 2 ? -kBack : kBack;
+            (octant & 4 ? write.least.z : write.most.z) += octant & 4 ? -kBack : kBack;
+            write.least.y = std::max(write.least.y, least), write.most.y = std::min(write.most.y, most);
+            write = clipped(write, window);
+            if (empty(write)) continue;
+            BrickBox box = write;
+            (octant & 1 ? box.most.x : box.least.x) += octant & 1 ? kBack : -kBack;
+            (octant & 2 ? box.most.y : box.least.y) += octant & 2 ? kBack : -kBack;
+            (octant & 4 ? box.most.z : box.least.z) += octant & 4 ? kBack : -kBack;
+            solve(g, octant, clipped(box, window), write, false);
+        }
+    };
+    const u32 layers = u32(std::max(0, (to - from + kLayer - 1) / kLayer));
+    if (pool && layers > 1)
+        pool->parallel_for(layers, solve_layer);
+    else
+        for (u32 i = 0; i < layers; ++i)
+            solve_layer(i);
 }
 
 void BrickSkips::refresh(const GridView& g, ThreadPool* pool) {
@@ -146,27 +180,7 @@ void BrickSkips::refresh(const GridView& g, ThreadPool* pool) {
             for (i32 z = 0; z < 1 << g.bits_z; ++z)
                 for (i32 x = 0; x < 1 << g.bits_x; ++x)
                     point_to_masks(g, {g.first.x + x, g.first.y + y, g.first.z + z});
-        // In layers, each with what lies ahead of it solved once more.
-        constexpr i32 kLayer = 16;
-        const u32 layers = u32((window.most.y - window.least.y) / kLayer);
-        const auto solve_layer = [&](u32 layer) {
-            BrickBox write = window;
-            write.least.y += i32(layer) * kLayer;
-            write.most.y = write.least.y + kLayer;
-            for (u32 octant = 0; octant < 8; ++octant) {
-                BrickBox box = write;
-                if (octant & 2)
-                    box.most.y = std::min(box.most.y + kBack, window.most.y);
-                else
-                    box.least.y = std::max(box.least.y - kBack, window.least.y);
-                solve(g, octant, box, write, false);
-            }
-        };
-        if (pool)
-            pool->parallel_for(layers, solve_layer);
-        else
-            for (u32 i = 0; i < layers; ++i)
-                solve_layer(i);
+        solve_in_layers(g, window, pool);
         dirty.add(0, words_.size() * sizeof(u32));
         all_ = false;
         changed_.clear(), touched_.clear();
@@ -190,13 +204,15 @@ void BrickSkips::refresh(const GridView& g, ThreadPool* pool) {
                     point_to_masks(g, {x, y, z});
     }
     for (const BrickBox& b : changed_) {
-        BrickBox reach = b;
-        for (u32 octant = 0; octant < 8; ++octant) {
+        BrickBox reach{{b.least.x - kBack, b.least.y - kBack, b.least.z - kBack},
+                       {b.most.x + kBack, b.most.y + kBack, b.most.z + kBack}};
+        const bool large = volume(b) > kLarge;
+        if (large) solve_in_layers(g, b, pool);
+        for (u32 octant = 0; octant < 8 && !large; ++octant) {
             BrickBox box = b;
             (octant & 1 ? box.least.x : box.most.x) += octant & 1 ? -kBack : kBack;
             (octant & 2 ? box.least.y : box.most.y) += octant & 2 ? -kBack : kBack;
             (octant & 4 ? box.least.z : box.most.z) += octant & 4 ? -kBack : kBack;
-            reach = joined(reach, box);
             box = clipped(box, window);
             if (!empty(box)) solve(g, octant, box, box, true);
         }

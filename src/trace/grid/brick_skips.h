@@ -36,6 +36,8 @@ private:
     void point_to_masks(const GridView& g, IVec3 chunk);
     void solve(const GridView& g, u32 octant, const BrickBox& box, const BrickBox& write, bool ahead_known);
 
+    void solve_in_layers(const GridView& g, const BrickBox& changed, ThreadPool* pool);
+
     std::vector<u32> words_;
     std::vector<BrickBox> changed_;
     std::vector<ChunkPos> touched_;
