@@ -120,7 +120,7 @@ VX_HD Walked next_stop(const GridView& g, const Ray& ray, Walk& w, Seek seek, do
         } else if (seek != Seek::air) {
             if (!fresh) return Walked::stopped;
             step_cell(w);
-        } else if (!approach({g.first.x * 16, g.first.y * 16, g.first.z * 16},
+        } else if (!approach({i32(u32(g.first.x) * 16), i32(u32(g.first.y) * 16), i32(u32(g.first.z) * 16)},
                              {16 << g.bits_x, 16 << g.bits_y, 16 << g.bits_z}, ray, w)) {
             return Walked::ended;
         }
