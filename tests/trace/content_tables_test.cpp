@@ -40,6 +40,8 @@ TEST(TraceContent, EveryStateIsSane) {
         if (r.kind == CellKind::model) {
             ASSERT_EQ(r.quads == 0, c.models.quads(StateId(id)).empty()) << name; // a vine on nothing
             ASSERT_EQ(r.medium, info.in_water ? ContentTables::kWater : 0) << name;
+            for (const u64 face : r.faces) // those of the fluid that it stands in show no picture
+                ASSERT_EQ(face, 0u) << name;
         } else if (r.kind != CellKind::empty)
             for (u32 f = 0; f < 6; ++f) {
                 ASSERT_LT(look_texture(r.faces[f]), layers) << name;
@@ -187,6 +189,61 @@ TEST(TraceContent, QuadsCoverWhatIsDrawn) {
         (out.size() == 1 ? whole : split) += 1;
     }
     EXPECT_GT(whole, 9 * split) << "most are parallelograms";
+}
+
+TEST(TraceContent, PicturesMove) {
+    const BaseContent& c = base_content();
+    TextureStore store;
+    store.load(c.pictures);
+    const u32 lava = u32(*c.registry->find_texture("lava_still")), stone = u32(*c.registry->find_texture("stone"));
+    EXPECT_TRUE(store.painted_emission(lava));
+    EXPECT_FALSE(store.painted_emission(stone));
+    const TextureView view = store.view();
+    std::vector<u32> changed;
+    store.animate(0, changed);
+    EXPECT_EQ(changed.size(), c.pictures.animations.size()) << "all are shown for the first time";
+    changed.clear();
+    store.animate(0.01, changed);
+    EXPECT_TRUE(changed.empty());
+    const auto& animation = *std::find_if(c.pictures.animations.begin(), c.pictures.animations.end(),
+                                          [&](const scene::PictureAnimation& a) { return a.layer == lava; });
+    for (const double seconds : {0.33, 0.9, 2.0}) {
+        changed.clear();
+        store.animate(seconds, changed);
+        EXPECT_THAT(changed, testing::Contains(lava));
+        EXPECT_THAT(changed, testing::Not(testing::Contains(stone)));
+        const scene::PictureAnimation::Moment now = animation.at(seconds);
+        ASSERT_EQ(now.from, now.to);
+        EXPECT_EQ(std::memcmp(view.albedo + std::size_t(lava) * view.layer_words,
+                              animation.albedo[now.from].levels[0].data(), 1024 * 4),
+                  0);
+    }
+}
+
+// Stone with gems: what is bright in the lamp's own hue shines, all else stays as painted.
+TEST(TraceContent, LampsWithoutAPictureOfEmissionShineByTheirBrightTexels) {
+    const BaseContent& c = base_content();
+    TextureStore store;
+    store.load(c.pictures);
+    const u32 ore = u32(*c.registry->find_texture("redstone_ore"));
+    ASSERT_FALSE(store.painted_emission(ore));
+    const TextureView view = store.view();
+    const std::size_t first = std::size_t(ore) * view.layer_words;
+    const std::vector<u32> before(view.material + first, view.material + first + view.layer_words);
+    store.derive_emission(ore, {9, 2, 1});
+    u32 shining = 0;
+    for (u32 i = 0; i < 1024; ++i) {
+        const Vec3 color = linear_from_srgb(color_of(view.albedo[first + i]));
+        const float emission = material_of(view.material[first + i]).emission;
+        EXPECT_EQ(view.material[first + i] & 0xffffff, before[i] & 0xffffff);
+        if (emission > 0.5f) {
+            ++shining;
+            EXPECT_GT(color.x, 2 * color.y) << "red";
+        }
+    }
+    EXPECT_GT(shining, 10u);
+    EXPECT_LT(shining, 400u);
+    EXPECT_FALSE(store.painted_emission(ore)) << "found, not painted";
 }
 
 } // namespace

@@ -29,7 +29,7 @@ enum class CellKind : u8 {
 
 // One block state, 64 bytes. Index: StateId.
 struct StateRecord {
-    u64 faces[6];       // scene::FaceLook of cubes and media; a liquid: [up] still, [north] flow
+    u64 faces[6] = {};  // scene::FaceLook of cubes and media; a liquid: [up] still, [north] flow
     u32 first_quad = 0; // into SceneView::quads
     u16 quads = 0;
     CellKind kind = CellKind::empty;
