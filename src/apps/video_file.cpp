@@ -52,7 +52,7 @@ Result<std::unique_ptr<VideoFile>> VideoFile::open(const std::string& path, u32 
     video->path_ = path, video->width_ = width, video->height_ = height;
     video->unfinished_ = (file.parent_path() / (file.stem().string() + ".part" + ending)).string();
 
-    // Players read H.264 and VP9 with half as many colors a side: those want even sizes.
+    // Players read H.264 and VP9 with half as many colors a side: those want even sizes: an odd row or column is left out.
     std::vector<std::string> words = {program,
                                       "-hide_banner",
                                       "-nostdin",
@@ -70,7 +70,7 @@ Result<std::unique_ptr<VideoFile>> VideoFile::open(const std::string& path, u32 
                                       "-i",
                                       "pipe:0",
                                       "-vf",
-                                      "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+                                      "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
                                       "-pix_fmt",
                                       "yuv420p",
                                       "-colorspace",

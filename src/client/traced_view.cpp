@@ -12,8 +12,10 @@ namespace {
 
 // Below this share a picture hardly shows blocks any more.
 constexpr float kLeastShare = 1.0f / 3;
-// From so many samples a pixel on a resting picture is not made anew in another size.
-constexpr u32 kSamplesKept = 8;
+// After so many frames of the same view the picture is made as large as a frame of so many times the wished length lets
+// it be, and then left to gather samples; a gain below that in width is not worth beginning anew.
+constexpr u32 kFramesOfRest = 8;
+constexpr float kRestTime = 2, kRestGain = 1.15f;
 // The time of a frame that is the tracer's own; how many times more or less than wanted is far off; steps of sizes.
 constexpr float kTracedPart = 0.8f, kFarOff = 2, kShareSteps = 16;
 constexpr std::size_t kChunksLeast = 64, kChunksMost = 4096;
@@ -81,23 +83,39 @@ Result<> TracedView::feed(BlockPos eye, double budget_ms) {
 float TracedView::choose_share(const TraceOptions& options, const render::Effects& effects, float last_frame_ms) {
     const float most = std::min(options.scale, effects.resolution.scale), least = std::min(kLeastShare, most);
     const float wanted_ms = 1000.0f / frame_rate_of(options, parts_.device);
-    // A picture at rest grows better as it is; a larger one would begin from nothing.
-    const bool rests = tracer_->stats().samples >= kSamplesKept && share_ <= most;
+    if (resting_frames_ < kFramesOfRest) {
+        rest_share_.reset();
+    } else if (rest_share_) {
+        return std::min(*rest_share_, most);
+    } else if (traced_ms_ > 0) {
+        const float fits = std::min(most, share_ * std::sqrt(kTracedPart * kRestTime * wanted_ms / traced_ms_));
+        rest_share_ = fits > share_ * kRestGain ? fits : share_;
+        return std::min(*rest_share_, most);
+    }
     // Far from what is wanted there is no time for judging many frames: the time that a pixel took tells the size. On
     // the CPU the first picture is a small one, to learn that.
     if (traced_ms_ <= 0) {
         if (parts_.device == trace::Device::cpu && !most_now_) most_now_ = least;
-    } else if (!rests && (traced_ms_ > kFarOff * wanted_ms || (traced_ms_ * kFarOff < wanted_ms && share_ < most))) {
+    } else if (traced_ms_ > kFarOff * wanted_ms || (traced_ms_ * kFarOff < wanted_ms && share_ < most)) {
         const float fits = share_ * std::sqrt(kTracedPart * wanted_ms / traced_ms_);
         most_now_ = std::round(fits * kShareSteps) / kShareSteps;
     }
     const float most_here = std::clamp(most_now_.value_or(most), least, most);
-    const float wanted = resolution_.next(shown_ ? last_frame_ms : 0.0f, {wanted_ms, least, most_here});
-    return rests && wanted > share_ ? share_ : wanted;
+    return resolution_.next(shown_ ? last_frame_ms : 0.0f, {wanted_ms, least, most_here});
+}
+
+// The eye, where it looks and the light are those of the frame before.
+bool TracedView::same_view(const scene::FrameView& frame) {
+    const scene::View& view = frame.views[0];
+    const Seen now{view.eye, view.rotation.m, view.fov_y, frame.sky.time, frame.width, frame.height};
+    const bool same = shown_ && now == seen_;
+    seen_ = now;
+    return same;
 }
 
 Result<> TracedView::draw(scene::FrameView& frame, const TraceOptions& options, const render::Effects& effects,
                           float last_frame_ms, render::Renderer& renderer) {
+    resting_frames_ = same_view(frame) ? resting_frames_ + 1 : 0;
     share_ = choose_share(options, effects, last_frame_ms);
     shown_ = true;
     const auto [width, height] = scene::drawn_size(frame.width, frame.height, share_);

@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "scene/resolution.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,6 +57,14 @@ public:
 private:
     explicit TracedView(const Parts& parts)
         : parts_(parts) {}
+    struct Seen {
+        Located<WorldPos> eye;
+        std::array<float, 16> rotation{};
+        float fov = 0, time = 0;
+        u32 width = 0, height = 0;
+        bool operator==(const Seen&) const = default;
+    };
+    bool same_view(const scene::FrameView& frame);
     float choose_share(const TraceOptions& options, const render::Effects& effects, float last_frame_ms);
 
     struct Pictures; // being read
@@ -68,6 +77,9 @@ private:
     float share_ = 1;
     float traced_ms_ = 0;           // of the last picture, at share_
     std::optional<float> most_now_; // what share_ may be at most, learned from that
+    Seen seen_;
+    u32 resting_frames_ = 0;
+    std::optional<float> rest_share_; // while the view rests
     bool shown_ = false;
     std::size_t chunks_a_frame_; // as many as the tracer takes in within the budget
 };

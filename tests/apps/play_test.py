@@ -73,6 +73,11 @@ def end(game, window):
 try:
     game, window = start()
     shoot("the start")
+    xdo("key", "F5") # the path tracer, and back
+    time.sleep(3)
+    shoot("the start, traced")
+    expect(screenshots()[-1].read_bytes() != screenshots()[-2].read_bytes(), "F5 changes the picture")
+    xdo("key", "F5")
     xdo("key", "F3")
     xdo("keydown", "w")
     time.sleep(1.5)

@@ -176,6 +176,24 @@ TEST_F(TracedViewTest, TracesSmallerWhereFramesTakeTooLong) {
     EXPECT_LT(view->stats().paths, u64(kWidth) * kHeight);
 }
 
+// A view that rests keeps its size and grows better, whatever frames took; motion ends that at once.
+TEST_F(TracedViewTest, GathersSamplesAtRest) {
+    u32 before = 0;
+    float share = 0;
+    for (int i = 0; i < 40; ++i) {
+        (void)draw(i < 14 ? 0.0f : 5000.0f);
+        if (i >= 14) {
+            EXPECT_EQ(view->share(), share) << i;
+            EXPECT_GT(view->stats().samples, before) << i;
+        }
+        before = view->stats().samples, share = view->share();
+    }
+    EXPECT_EQ(share, 1);
+    pose.yaw_deg += 5;
+    (void)draw();
+    EXPECT_LT(view->stats().samples, before);
+}
+
 TEST(Traced, SameSeedSamePicture) {
     setenv("VITRAIL_GL", "software", 0);
     const Content content = base_content();
