@@ -148,6 +148,14 @@ TEST_F(TracedViewTest, ShowsTheWorldAndHearsOfEdits) {
     EXPECT_GT(difference(ground, lamp), 3);
     EXPECT_EQ(renderer->stats().draws, 0u) << "no sections are drawn";
 
+    // Looks that are read again, as after a change of packs: the same world.
+    feeder->set_packs(nullptr);
+    view->set_packs(nullptr);
+    ASSERT_NO_FATAL_FAILURE(settle());
+    (void)draw();
+    EXPECT_GT(view->stats().emitters, 0u);
+    EXPECT_LT(difference(lamp, draw()), difference(ground, lamp));
+
     // Back: nothing of the film is left, sections are meshed now.
     view->hide(*renderer);
     feeder->set_meshing(true);
