@@ -15,7 +15,7 @@ constexpr float kRateOfGpu = 30, kRateOfCpu = 10;
 #define VX_TRACE(name) [](TraceOptions& o) -> Member { return &o.name; }
 
 const TraceOption kOptions[] = {
-    {"hold", "Hold a frame rate",
+    {"hold", "Frame rate",
      "The picture is traced smaller where frames come slower than this a second; 0: 30 on a GPU, 10 on the CPU.",
      VX_TRACE(hold), 0, 240},
     {"scale", "Resolution", "Share of the window's width and height that is traced, at most.", VX_TRACE(scale), 0.3f,

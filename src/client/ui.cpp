@@ -114,7 +114,13 @@ static void draw_option(const Option& option, Values& values) {
         if (option.choices.empty()) ImGui::SliderInt(option.label, *i, int(option.least), int(option.most));
         else ImGui::Combo(option.label, *i, option.choices.data(), int(option.choices.size()));
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", option.help);
+    if (ImGui::IsItemHovered()) {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24); // wider ones leave small windows
+        ImGui::TextUnformatted(option.help);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
     ImGui::PopID();
 }
 
