@@ -37,8 +37,7 @@ include(GoogleTest)
 
 # CUDA is optional: where nvcc is found the program can use a GPU, and finds out at run time whether there is one.
 set(VITRAIL_CUDA AUTO CACHE STRING "CUDA backend: AUTO, ON or OFF")
-# --fmad=false, as -ffp-contract=off below: land is the same bit for bit.
-set(VITRAIL_NVCC_FLAGS -std=c++20 -O3 --fmad=false --expt-relaxed-constexpr -Xcompiler=-fPIC,-ffp-contract=off
+set(VITRAIL_NVCC_FLAGS -std=c++20 -O3 --expt-relaxed-constexpr -Xcompiler=-fPIC,-ffp-contract=off
     -gencode arch=compute_75,code=compute_75 -gencode arch=compute_90,code=sm_90)
 if(NOT VITRAIL_CUDA STREQUAL "OFF" AND NOT VITRAIL_SANITIZE)
     find_program(VITRAIL_NVCC nvcc HINTS /usr/local/cuda/bin)
@@ -98,18 +97,22 @@ function(vitrail_library folder)
     target_link_libraries(vitrail_${folder} PUBLIC fmt::fmt Threads::Threads ${ARGN})
     file(GLOB_RECURSE cuda CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cu)
     if(cuda AND VITRAIL_CUDA_ROOT)
-        vitrail_cuda_sources(vitrail_${folder} ${cuda})
+        if(NOT DEFINED VITRAIL_CUDA_MATH)
+            # As -ffp-contract=off above: land is the same bit for bit. A folder may set others before.
+            set(VITRAIL_CUDA_MATH --fmad=false)
+        endif()
+        vitrail_cuda_sources(vitrail_${folder} "${VITRAIL_CUDA_MATH}" ${cuda})
     endif()
 endfunction()
 
-# vitrail_cuda_sources(TARGET file.cu...): objects made by nvcc, with a static CUDA runtime, so that the program also starts
+# vitrail_cuda_sources(TARGET flags file.cu...): objects made by nvcc, with a static CUDA runtime, so that the program also starts
 # where there is no driver. Not CMake's CUDA language: it would take over linking, and its version 3.25 knows no C++20 there.
-function(vitrail_cuda_sources target)
+function(vitrail_cuda_sources target flags)
     foreach(source IN LISTS ARGN)
         get_filename_component(name ${source} NAME_WE)
         set(object ${CMAKE_CURRENT_BINARY_DIR}/${name}.cu.o)
         add_custom_command(OUTPUT ${object}
-            COMMAND ${VITRAIL_NVCC} ${VITRAIL_NVCC_FLAGS}
+            COMMAND ${VITRAIL_NVCC} ${VITRAIL_NVCC_FLAGS} ${flags}
                     -I${CMAKE_SOURCE_DIR}/src -MD -MF ${object}.d -c ${source} -o ${object}
             DEPENDS ${source} DEPFILE ${object}.d COMMENT "CUDA ${name}.cu" VERBATIM)
         target_sources(${target} PRIVATE ${object})

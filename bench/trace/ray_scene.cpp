@@ -64,9 +64,9 @@ Place outside(const Ray& ray, const Hit& hit) {
 
 } // namespace
 
-Camera land_camera() {
+Camera land_camera(u32 width, u32 height) {
     Camera c;
-    c.width = 854, c.height = 480;
+    c.width = width, c.height = height;
     const i32 x = 256, z = 232;
     c.eye = {{x, SampleLand::height(x, z) + 20, z}, {0.5f, 0.5f, 0.5f}};
     c.forward = normalized({0.5f, -0.25f, 0.83f});
@@ -74,12 +74,12 @@ Camera land_camera() {
     c.up = cross(c.right, c.forward);
     const float half = 0.7f; // 70 degrees high
     c.up = c.up * half;
-    c.right = c.right * (half * 854 / 480);
+    c.right = c.right * (half * float(width) / float(height));
     return c;
 }
 
-RaySet camera_rays(RayScene& scene) {
-    const Camera c = land_camera();
+RaySet camera_rays(RayScene& scene, u32 width, u32 height) {
+    const Camera c = land_camera(width, height);
     RaySet set;
     for (u32 by = 0; by < c.height; by += 8)
         for (u32 bx = 0; bx < c.width; bx += 8)

@@ -29,9 +29,9 @@ struct RaySet {
     std::vector<trace::Hit> hits; // room for as many
 };
 
-// 854 x 480 from a hill over the land's middle.
-trace::Camera land_camera();
-RaySet camera_rays(RayScene& scene);
+// From a hill over the land's middle.
+trace::Camera land_camera(u32 width = 854, u32 height = 480);
+RaySet camera_rays(RayScene& scene, u32 width = 854, u32 height = 480);
 // One from each place that rays of `from` hit, distributed by the cosine to its face.
 RaySet bounce_rays(RayScene& scene, const RaySet& from);
 // To the sun from each face hit that looks at it.

@@ -6,4 +6,5 @@ void register_trace_benches(vitrail::bench::Suite& suite) {
     vitrail::register_path_benches(suite);
     vitrail::register_denoise_benches(suite);
     vitrail::register_shade_benches(suite);
+    vitrail::register_cuda_benches(suite);
 }

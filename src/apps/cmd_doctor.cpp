@@ -4,6 +4,7 @@
 #include "gfx/context.h"
 #include "platform/headless.h"
 #include "terrain/cuda/device.h"
+#include "trace/cuda/cuda_tracer.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -26,7 +27,8 @@ Result<> run_doctor() {
     const char* display = std::getenv("DISPLAY");
     const char* wayland = std::getenv("WAYLAND_DISPLAY");
     fmt::print("display     {}\n", wayland && *wayland ? wayland : display && *display ? display : "none (pictures still work)");
-    fmt::print("cuda        {}\naudio       not in this build\n", cuda_summary());
+    fmt::print("cuda        {}\ntracing     {}\naudio       not in this build\n", cuda_summary(),
+               trace::cuda_tracer_summary());
     const std::string ffmpeg = find_ffmpeg();
     fmt::print("ffmpeg      {}\n", ffmpeg.empty() ? "none (videos want it: apt install ffmpeg)" : ffmpeg);
     fmt::print("store       SQLite {}\n", sqlite3_libversion());

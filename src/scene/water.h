@@ -68,6 +68,16 @@ VX_HD WaveSurface wave_at(BlockPos place, Vec2 inside, float seconds, float wave
 struct LiquidOptics {
     Vec3 absorption, scattering;
 };
-LiquidOptics water_optics(Vec3 tint_srgb);
+VX_HD LiquidOptics water_optics(Vec3 tint_srgb) {
+    const auto absorbed = [](float srgb) {
+        const float c = clamp(srgb, 0.0f, 1.0f);
+        const float linear = c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f);
+        return -0.085f * std::log(linear > 0.012f ? linear : 0.012f);
+    };
+    // However blue a tint: what takes green takes some blue too, else deep water would be violet.
+    const float green = absorbed(tint_srgb.y), blue = absorbed(tint_srgb.z), least = 0.35f * green;
+    return {Vec3{absorbed(tint_srgb.x), green, blue > least ? blue : least} + Vec3{0.030f, 0.030f, 0.025f},
+            {0.030f, 0.034f, 0.038f}};
+}
 
 } // namespace vitrail::scene

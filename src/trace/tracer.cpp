@@ -1,6 +1,7 @@
 #include "trace/tracer.h"
 
 #include "trace/cpu/cpu_tracer.h"
+#include "trace/cuda/cuda_tracer.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -12,8 +13,7 @@ Result<std::unique_ptr<Tracer>> Tracer::create(const TracerOptions& options) {
         return fail(
             ErrorCode::invalid_argument,
             fmt::format("a window of {} chunks: powers of two from 4 to 128 are possible", options.window_chunks));
-    if (options.device == Device::cuda)
-        return fail(ErrorCode::unsupported, "path tracing on CUDA is not built yet: use the CPU");
+    if (options.device == Device::cuda) return make_cuda_tracer(options);
     return std::unique_ptr<Tracer>(std::make_unique<CpuTracer>(options));
 }
 

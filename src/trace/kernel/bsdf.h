@@ -145,7 +145,7 @@ VX_HD Vec3 local_eye(const Frame& f, Vec3 to_eye) {
 }
 
 // Value and pdf together.
-VX_HD BsdfValue bsdf_at(const SurfacePoint& p, Vec3 to_eye, Vec3 to_light) {
+VX_HD_CALL BsdfValue bsdf_at(const SurfacePoint& p, Vec3 to_eye, Vec3 to_light) {
     if (p.plant) {
         const float pdf = (kPlantUp * (to_light.y > 0 ? to_light.y : 0) + (1 - kPlantUp) * 0.25f) * (1 / kPi);
         return {p.albedo * pdf, pdf};
@@ -257,7 +257,7 @@ VX_HD BsdfSample sample_rough_border(const SurfacePoint& p, Vec3 to_eye, float c
 }
 
 // choose: 0 <= choose < 1, which lobe; u: where in it. A sample of weight 0 goes nowhere.
-VX_HD BsdfSample sample_bsdf(const SurfacePoint& p, Vec3 to_eye, float choose, Vec2 u) {
+VX_HD_CALL BsdfSample sample_bsdf(const SurfacePoint& p, Vec3 to_eye, float choose, Vec2 u) {
     BsdfSample s;
     if (p.plant) {
         if (choose < kPlantUp) {

@@ -137,7 +137,7 @@ VX_HD bool meet_inside(const SceneView& s, const Ray& ray, const Walk& w, u32 st
 
 // The first thing that the ray, in `medium`, meets in the cell where the walk stands, after what `progress` holds;
 // `behind`: the medium beyond it. Nothing beyond t_most counts. A start cell has no border.
-VX_HD bool meet_cell(const SceneView& s, const Ray& ray, const Walk& w, u32 medium, float t_most,
+VX_HD_CALL bool meet_cell(const SceneView& s, const Ray& ray, const Walk& w, u32 medium, float t_most,
                      CellProgress& progress, Hit& hit, u32& behind) {
     const IVec3 cell = w.cell();
     const u32 state = state_at(s.grid, cell);

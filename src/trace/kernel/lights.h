@@ -102,7 +102,7 @@ VX_HD SphericalRect rect_of_face(u32 face, Vec3 q) {
 }
 
 // choose: 0..1, which lamp and piece of it; u: where on it. False: none (pdf 0).
-VX_HD bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float choose, Vec2 u, EmitterSample& out) {
+VX_HD_CALL bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float choose, Vec2 u, EmitterSample& out) {
     out.pdf = 0;
     float chance;
     const u32 emitter = choose_emitter(s.lights, light_place(s.lights, at), normal, choose, chance);
@@ -180,7 +180,7 @@ VX_HD bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float choos
 }
 
 // Density of directions with which sample_emitter finds this hit from `at`. facing: geometric normal there.
-VX_HD float emitter_pdf(const SceneView& s, Place at, Vec3 normal, Vec3 dir, const Hit& hit, Vec3 facing) {
+VX_HD_CALL float emitter_pdf(const SceneView& s, Place at, Vec3 normal, Vec3 dir, const Hit& hit, Vec3 facing) {
     if (hit.kind != HitKind::cube && hit.kind != HitKind::quad) return 0;
     const u32 emitter = find_emitter(s.lights, hit.cell);
     if (emitter == kNoEmitter || s.lights.emitters[emitter].state != hit.state) return 0;

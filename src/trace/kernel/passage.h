@@ -66,7 +66,7 @@ VX_COLD bool cross_pane(const SceneView& scene, const Ray& ray, const Hit& pane,
 
 // Light goes from `distance` ahead straight back to the ray's start, through borders; value loses what they take.
 // medium: of the start. False: none arrives.
-VX_HD bool light_passes(const SceneView& scene, const Ray& ray, float distance, u32 medium, Vec3& value) {
+VX_HD_CALL bool light_passes(const SceneView& scene, const Ray& ray, float distance, u32 medium, Vec3& value) {
     const float most = distance < kFar ? distance - std::fmax(1e-3f, 1e-4f * distance) : kFar;
     if (!(most > 0)) return true;
     float since = 0;

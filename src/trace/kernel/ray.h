@@ -8,6 +8,14 @@
 #include "base/types.h"
 #include "math/vec.h"
 
+// Large functions: calls on a GPU, where code has to fit the instruction cache and callers to share registers; inlined
+// on the CPU, as all kernels are.
+#ifdef __CUDACC__
+#define VX_HD_CALL inline __host__ __device__ __noinline__
+#else
+#define VX_HD_CALL VX_HD
+#endif
+
 namespace vitrail::trace {
 
 inline constexpr float kFar = 1e30f; // distance of nothing

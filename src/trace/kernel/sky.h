@@ -24,7 +24,7 @@ VX_HD Vec3 sky_light(const SkyView& sky, Vec3 dir) {
 
 // Dome, stars, moon, sun, clouds, from far to near, without the mist before them (kernel/air.h). edge: radians of a
 // pixel; dither: 0..1, any number: hides the steps of the clouds' march.
-VX_HD Vec3 sky_seen(const SkyView& sky, Vec3 dir, float edge, float dither = 0.5f) {
+VX_HD_CALL Vec3 sky_seen(const SkyView& sky, Vec3 dir, float edge, float dither = 0.5f) {
     if (!sky.open) return sky.ground;
     const float above = clamp(dir.y / edge + 0.5f, 0.0f, 1.0f); // the horizon hides what has set
     Vec3 color = lerp(sky_dome(sky, dir), sky.below, smoothstep(-0.02f, -0.45f, dir.y) * 0.8f);

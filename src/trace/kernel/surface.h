@@ -203,7 +203,7 @@ VX_HD void shade_liquid_top(const SceneView& s, const Ray& ray, const Hit& hit, 
     p.normal = seen_from(p.normal, ray.dir);
 }
 
-VX_HD SurfacePoint surface_at(const SceneView& s, const Ray& ray, const Hit& hit, float footprint) {
+VX_HD_CALL SurfacePoint surface_at(const SceneView& s, const Ray& ray, const Hit& hit, float footprint) {
     SurfacePoint p;
     const StateRecord& r = s.states[hit.state];
     if (hit.kind == HitKind::quad && hit.quad == kLiquidSurface) {

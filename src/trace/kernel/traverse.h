@@ -31,7 +31,8 @@ VX_HD bool closest_from(const SceneView& s, const Ray& ray, Walk& w, bool look, 
         if (look) {
             CellProgress progress;
             Hit met;
-            if (meet_cell(s, ray, w, medium, t_max, progress, met, behind)) {
+            const Walk here = w; // whose address a call may take, while the walk stays in registers
+            if (meet_cell(s, ray, here, medium, t_max, progress, met, behind)) {
                 hit = met;
                 return true;
             }
@@ -49,7 +50,7 @@ VX_HD bool closest_from(const SceneView& s, const Ray& ray, Walk& w, bool look, 
 
 // The nearest border or surface before t_max. False: nothing; or, with HitKind::unknown, the ray passed more than
 // kCellsMost boxes of cells.
-VX_HD bool closest_hit(const SceneView& s, const Ray& ray, float t_max, u32 medium, Hit& hit) {
+VX_HD_CALL bool closest_hit(const SceneView& s, const Ray& ray, float t_max, u32 medium, Hit& hit) {
     hit = Hit{};
     bool found = false;
     if (meet_boxes(s, ray, t_max, false, hit)) t_max = hit.t, found = true;
@@ -83,7 +84,8 @@ VX_HD bool shadowed(const SceneView& s, const Ray& ray, float t_max, u32 medium,
     CellProgress progress;
     bool look = looks_in(s, w.cell());
     for (;;) {
-        while (look && meet_cell(s, ray, w, medium, t_max, progress, hit, behind)) {
+        const Walk here = w; // as in closest_from
+        while (look && meet_cell(s, ray, here, medium, t_max, progress, hit, behind)) {
             if (!passes_light(s, hit) || pane(static_cast<const Hit&>(hit))) return true;
             medium = behind;
         }

@@ -1,0 +1,62 @@
+// What the host's files of this folder share with those that nvcc compiles: the launches. All pointers are of the
+// device that is current, and so is the stream.
+#pragma once
+
+#include "trace/film/stages.h"
+#include "trace/kernel/film.h"
+#include "trace/kernel/path_settings.h"
+#include "trace/kernel/scene_view.h"
+#include "trace/kernel/sky_view.h"
+
+struct CUstream_st; // cudaStream_t points to it
+
+namespace vitrail::trace::cuda {
+
+// Words from one place of staging memory to where they belong.
+struct Piece {
+    u32* to = nullptr;
+    u32 from = 0, words = 0; // of staging
+};
+inline constexpr u32 kPieceWords = 4096; // at most
+void launch_scatter(const u32* staging, const Piece* pieces, u32 count, CUstream_st* stream);
+
+void launch_fill(float* to, u64 count, float value, CUstream_st* stream);
+
+// Sums over a frame's paths, in device memory.
+struct PathCounts {
+    unsigned long long rays = 0, paths = 0, dropped = 0;
+};
+
+// Rows of the picture are dealt out to devices in bands of so many.
+inline constexpr u32 kBand = 16;
+
+// Every pixel of the bands `band`, `band + bands`, ... that lies on a lattice: x % step == step_x, y % step == step_y.
+struct PathJob {
+    SceneView scene;
+    SkyView sky;
+    PathSettings settings;
+    FilmPlanes film; // `width` and `height` alone where means are wanted
+    FilmFrame frame;
+    u32 samples = 1;
+    u32 band = 0, bands = 1;
+    u32 step = 1, step_x = 0, step_y = 0;
+    SampleMean* means = nullptr; // instead of the film: row by row, the rows of the bands alone
+    PathCounts* counts = nullptr;
+};
+void launch_paths(const PathJob& job, CUstream_st* stream);
+// Means of another device's bands, into the film. The job is that device's, with this device's film.
+void launch_put_means(const PathJob& job, CUstream_st* stream);
+u32 rows_of_bands(u32 height, u32 band, u32 bands);
+
+void launch_film(const FilmPlanes& film, const FilmFrame& frame, const FilmPass& pass, CUstream_st* stream);
+
+// What Tracer::read gives, `channels` floats a pixel.
+enum class FilmLayer : u8 { color, albedo, normal, distance, samples };
+u32 channels_of(FilmLayer layer);
+void launch_read(const FilmPlanes& film, const FilmFrame& frame, FilmLayer layer, float* to, CUstream_st* stream);
+
+// Rays by themselves. lit: 1 where nothing opaque lies before kFar; panes are passed.
+void launch_closest(const SceneView& scene, const Ray* rays, u32 count, u32 medium, Hit* hits, CUstream_st* stream);
+void launch_shadows(const SceneView& scene, const Ray* rays, u32 count, u32 medium, u8* lit, CUstream_st* stream);
+
+} // namespace vitrail::trace::cuda

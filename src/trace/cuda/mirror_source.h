@@ -1,0 +1,23 @@
+// What a mirror on a device is told of the scene on the host.
+#pragma once
+
+#include "trace/grid/grid.h"
+#include "trace/kernel/scene_view.h"
+#include "trace/lights/light_store.h"
+
+#include <span>
+
+namespace vitrail::trace::cuda {
+
+// The scene on the host, and what tells its changes. All of `view` is the host's.
+struct MirrorSource {
+    SceneView view;
+    Grid* grid = nullptr;         // view.grid's, refreshed; its changes are taken
+    LightStore* lights = nullptr; // view.lights'; null: none
+    u64 quads = 0, media = 0;     // entries of view.quads, view.media
+    // Another number: the tables, the pictures are others. While it stays the tables only grow.
+    u64 tables = 0, pictures = 0;
+    std::span<const u32> changed_layers; // of the pictures
+};
+
+} // namespace vitrail::trace::cuda
