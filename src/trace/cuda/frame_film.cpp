@@ -1,6 +1,6 @@
-#include "trace/cuda/frame_film.h"
-
 #if VITRAIL_CUDA
+
+#include "trace/cuda/frame_film.h"
 
 namespace vitrail::trace::cuda {
 

@@ -1,6 +1,6 @@
-#include "trace/cuda/gl_share.h"
-
 #if VITRAIL_CUDA
+
+#include "trace/cuda/gl_share.h"
 
 #include <epoxy/gl.h>
 // After epoxy, which stands for GL/gl.h.

@@ -1,6 +1,6 @@
-#include "trace/cuda/mirror.h"
-
 #if VITRAIL_CUDA
+
+#include "trace/cuda/mirror.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
-#include "trace/cuda/upload.h"
-
 #if VITRAIL_CUDA
+
+#include "trace/cuda/upload.h"
 
 #include <algorithm>
 #include <cstring>
