@@ -1,5 +1,7 @@
 #include "scene/atmosphere.h"
 
+#include "math/color.h"
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -263,7 +265,7 @@ ClearSkies::ClearSkies()
                 }
                 const u32 texel = row * SkyTable::kWidth + column;
                 sky.pattern[texel] = color;
-                sum += double(luminance(color)) * mu * solid_angle[texel];
+                sum += double(luminance_of(color)) * mu * solid_angle[texel];
             }
         }
         sky.brightness = float(sum / kPi);

@@ -31,8 +31,4 @@ void add_clear_sky(SkyTable& table, float sine, bool opposite, SkyBands bands, V
 // pi.
 float sky_texel_solid_angle(u32 column, u32 row);
 
-VX_HD constexpr float luminance(Vec3 c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
-
 } // namespace vitrail::scene

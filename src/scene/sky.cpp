@@ -1,5 +1,6 @@
 #include "scene/sky.h"
 
+#include "math/color.h"
 #include "scene/atmosphere.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ Vec3 power(Vec3 v, float p) {
 
 void soften_glare(SkyTable& dome, float high, float saturation, float brightness) {
     for (Vec3& c : dome.texels) {
-        const float l = luminance(c), softer = brightness * (1 + kGlareLow * l) / (1 + high * l);
+        const float l = luminance_of(c), softer = brightness * (1 + kGlareLow * l) / (1 + high * l);
         const Vec3 pure = Vec3{l, l, l} + (c - Vec3{l, l, l}) * saturation;
         c = Vec3{std::max(pure.x, 0.1f * c.x), std::max(pure.y, 0.1f * c.y), std::max(pure.z, 0.1f * c.z)} * softer;
     }

@@ -1,4 +1,5 @@
 #include "base/rng.h"
+#include "math/color.h"
 #include "scene/atmosphere.h"
 #include "scene/sky.h"
 
@@ -57,7 +58,7 @@ TEST(Atmosphere, LightFromTheZenithLosesWhatTheAirTakes) {
         ASSERT_LE(low.z, high.z + 1e-6f);
         ASSERT_LE(low.z * high.x, high.z * low.x + 1e-5f);
     }
-    EXPECT_EQ(luminance(light_through_air(-0.05f)), 0);
+    EXPECT_EQ(luminance_of(light_through_air(-0.05f)), 0);
 }
 
 // Walks photons backwards through the same air by chance, every scattering followed, ground and curvature included.
@@ -161,7 +162,7 @@ static Vec3 sky_by_chance(double sine, u32 walks) {
 TEST(Atmosphere, DomeIsAsBrightAsPhotonsWalkedByChance) {
     for (float sine : {0.85f, 0.35f}) {
         const Vec3 walked = sky_by_chance(double(sine), 6000);
-        EXPECT_NEAR(clear_sky_brightness(sine) / luminance(walked), 1, 0.10) << "sine " << sine;
+        EXPECT_NEAR(clear_sky_brightness(sine) / luminance_of(walked), 1, 0.10) << "sine " << sine;
         SkyTable dome{};
         add_clear_sky(dome, sine, false, {}, {1, 1, 1});
         Vec3 mean;
@@ -171,7 +172,7 @@ TEST(Atmosphere, DomeIsAsBrightAsPhotonsWalkedByChance) {
                 mean += dome.texels[row * SkyTable::kWidth + column] *
                         (v * v * sky_texel_solid_angle(column, row) / float(kPi));
             }
-        EXPECT_NEAR(luminance(mean), 1, 0.01);
+        EXPECT_NEAR(luminance_of(mean), 1, 0.01);
         EXPECT_NEAR(mean.z / mean.x / (walked.z / walked.x), 1, 0.12) << "its color";
     }
 }
@@ -200,25 +201,25 @@ TEST(Sky, IrradianceIsTheIntegralOfWhatSurrounds) {
             }
         float most = 0;
         for (const Vec3& s : sums)
-            most = std::max(most, luminance(s));
+            most = std::max(most, luminance_of(s));
         double off = 0;
         for (std::size_t i = 0; i < all.size(); ++i) {
             const Vec3 found = irradiance_of(sky.irradiance, all[i]);
             EXPECT_GT(std::min({found.x, found.y, found.z}), 0) << time;
-            EXPECT_NEAR(luminance(found) / most, luminance(sums[i]) / most, 0.06)
+            EXPECT_NEAR(luminance_of(found) / most, luminance_of(sums[i]) / most, 0.06)
                 << "time " << time << " normal " << all[i].x << ' ' << all[i].y << ' ' << all[i].z;
-            off += double(std::abs(luminance(found) - luminance(sums[i])) / most);
+            off += double(std::abs(luminance_of(found) - luminance_of(sums[i])) / most);
         }
         EXPECT_LT(off / double(all.size()), 0.03) << time;
-        EXPECT_NEAR(luminance(sky.ambient) / luminance(sums[2]), 1, 0.02);
+        EXPECT_NEAR(luminance_of(sky.ambient) / luminance_of(sums[2]), 1, 0.02);
     }
 }
 
 TEST(Sky, WestFacesGlowAtDuskAndEastFacesAtDawn) {
     const auto ratio = [](float time) {
         const SkyState sky = sky_at(time);
-        return luminance(irradiance_of(sky.irradiance, {-1, 0, 0})) /
-               luminance(irradiance_of(sky.irradiance, {1, 0, 0}));
+        return luminance_of(irradiance_of(sky.irradiance, {-1, 0, 0})) /
+               luminance_of(irradiance_of(sky.irradiance, {1, 0, 0}));
     };
     for (float time : {12150.0f, 12250.0f, 12400.0f, 12600.0f})
         EXPECT_GT(ratio(time), 1.5f) << time;
@@ -235,7 +236,7 @@ TEST(Sky, SunsetIsOrangeAtTheSunAndPinkOverTheEarthsShadowOpposite) {
     EXPECT_GT(west.y, 2 * west.z);
     EXPECT_GT(east.x, 1.3f * east.y); // the belt of Venus
     EXPECT_GT(east.z, 1.1f * east.y);
-    EXPECT_LT(luminance(east_low), luminance(east)); // the shadow
+    EXPECT_LT(luminance_of(east_low), luminance_of(east)); // the shadow
     EXPECT_LT(east_low.x / east_low.z, 0.8f * east.x / east.z);
     const Vec3 zenith = sky_color(sky_at(12650), {0, 1, 0}); // the blue hour
     EXPECT_GT(zenith.z, 1.8f * zenith.x);
@@ -247,10 +248,10 @@ TEST(Sky, SunsetIsOrangeAtTheSunAndPinkOverTheEarthsShadowOpposite) {
 TEST(Sky, WhiteSendsBackTwoAtNoon) {
     const SkyState noon = sky_at(6000), midnight = sky_at(18000, 0), dark = sky_at(18000, 4);
     const auto white = [](const SkyState& sky) {
-        return luminance(sky.ambient) + luminance(sky.sun_light) * std::abs(sky.sun_direction.y);
+        return luminance_of(sky.ambient) + luminance_of(sky.sun_light) * std::abs(sky.sun_direction.y);
     };
     EXPECT_NEAR(white(noon), 2, 0.1);
-    EXPECT_NEAR(luminance(noon.ambient), 0.5, 0.12);
+    EXPECT_NEAR(luminance_of(noon.ambient), 0.5, 0.12);
     EXPECT_NEAR(white(midnight), 2.0 / 22, 0.03);
     EXPECT_NEAR(white(dark) / white(midnight), 0.36, 0.12);
 }
@@ -267,7 +268,7 @@ TEST(Sky, NothingJumps) {
     SkyState a = sky_at(0, 3);
     for (float t = 10; t <= 24000; t += 10) {
         const SkyState b = sky_at(t, t < 24000 ? 3 : 4);
-        const float scale = luminance(a.ambient) + luminance(a.sun_light);
+        const float scale = luminance_of(a.ambient) + luminance_of(a.sun_light);
         const auto near = [&](Vec3 x, Vec3 y) { return length(x - y) < 0.12f * scale; };
         ASSERT_LT(length(a.sun_light - b.sun_light), std::min(0.06f, 0.16f * scale)) << "at " << t;
         ASSERT_TRUE(near(a.ambient, b.ambient)) << "at " << t;

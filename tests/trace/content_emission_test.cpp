@@ -1,6 +1,7 @@
 // Lamps of the base content light a wall one block away as emission.h promises, by rays through the grid.
 #include "tests/trace/content_fixture.h"
 
+#include "math/color.h"
 #include "trace/content/emission.h"
 #include "trace/kernel/surface.h"
 #include "trace/kernel/traverse.h"
@@ -10,10 +11,6 @@
 
 namespace vitrail::trace {
 namespace {
-
-float luminance(Vec3 c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
 
 // Irradiance over pi in the middle of a wall one block from the cell, at its side `face`: even steps over the picture
 // that the cell makes on the plane before the wall.
@@ -77,10 +74,10 @@ TEST(TraceEmission, LampsLightTheWallBesideThem) {
         Vec3 best;
         for (u32 face = 0; face < 6; ++face) {
             const Vec3 found = wall_return(view, {8, 8, 8}, face, 96);
-            if (luminance(found) > luminance(best)) best = found;
+            if (luminance_of(found) > luminance_of(best)) best = found;
         }
         const auto& light = base_content().states->info(StateId(base_content().id(lamp.state))).look->light;
-        const float share = luminance(best) / lamp_return(std::max({light[0], light[1], light[2]}));
+        const float share = luminance_of(best) / lamp_return(std::max({light[0], light[1], light[2]}));
         EXPECT_GT(share, lamp.least) << lamp.state;
         EXPECT_LT(share, lamp.most) << lamp.state;
     }

@@ -52,7 +52,7 @@ TEST(FilmDenoise, EdgesStaySharp) {
     std::vector<bool> edge(right.size());
     for (u32 y = 0; y < kH; ++y)
         for (u32 x = 1; x < kW; ++x) {
-            const float a = luma(right[y * kW + x - 1]), b = luma(right[y * kW + x]);
+            const float a = luminance_of(right[y * kW + x - 1]), b = luminance_of(right[y * kW + x]);
             if (std::fabs(a - b) > 0.4f * std::max(a, b)) edge[y * kW + x] = edge[y * kW + x - 1] = true;
         }
     const auto at_edge = [&](std::size_t i) { return bool(edge[i]); };
@@ -120,7 +120,7 @@ TEST(FilmDenoise, RestIsCalm) {
     for (u32 n = 0; n < kFrames; ++n) {
         const Picture p = frame(film, s, c, {}, false, n + 500);
         for (std::size_t i = 0; i < pixels; ++i) {
-            const double l = double(luma(p[i]));
+            const double l = double(luminance_of(p[i]));
             sum[i] += l, squares[i] += l * l, all += l;
         }
     }

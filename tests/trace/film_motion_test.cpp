@@ -71,12 +71,12 @@ TEST_P(FilmMotion, LeavesNoTrail) {
                 for (i32 k = 0; k < 9; ++k) {
                     const u32 q = (y + u32(k / 3) - 1) * kW + x + u32(k % 3) - 1;
                     one = one && planes.now.surface[q] == planes.now.surface[y * kW + x];
-                    least = std::min(least, luma(right[q])), most = std::max(most, luma(right[q]));
+                    least = std::min(least, luminance_of(right[q])), most = std::max(most, luminance_of(right[q]));
                 }
                 const std::size_t i = y * kW + x;
                 if (!one || planes.albedo[i].w == 0) continue;
                 ++inner;
-                const float l = luma(p[i]), slack = 0.15f * most;
+                const float l = luminance_of(p[i]), slack = 0.15f * most;
                 wrong += l < least - slack || l > most + slack;
             }
         ASSERT_GT(inner, 2'000u);
@@ -91,8 +91,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, FilmMotion, testing::Values(Way::walk, Way::pan, 
 double progress(const Picture& p, const Picture& from, const Picture& to) {
     double got = 0, all = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
-        const double d = double(luma(to[i]) - luma(from[i]));
-        got += double(luma(p[i]) - luma(from[i])) * (d < 0 ? -1 : 1), all += std::fabs(d);
+        const double d = double(luminance_of(to[i]) - luminance_of(from[i]));
+        got += double(luminance_of(p[i]) - luminance_of(from[i])) * (d < 0 ? -1 : 1), all += std::fabs(d);
     }
     return got / all;
 }
@@ -250,8 +250,8 @@ TEST(FilmMixed, WaterHasNoGrain) {
         double sum = 0;
         for (u32 y = 1; y + 1 < kH; ++y)
             for (u32 x = 1; x + 8 < kW; ++x)
-                sum +=
-                    std::fabs(double(luma(a[y * kW + x]) - 0.5f * (luma(a[y * kW + x - 1]) + luma(a[y * kW + x + 1]))));
+                sum += std::fabs(double(luminance_of(a[y * kW + x]) -
+                                        0.5f * (luminance_of(a[y * kW + x - 1]) + luminance_of(a[y * kW + x + 1]))));
         return sum;
     };
     EXPECT_LT(rmse(p, right), rmse(raw, right) / 3);

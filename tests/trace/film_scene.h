@@ -203,7 +203,7 @@ inline double rmse(const Picture& a, const Picture& b) {
 inline double mean(const Picture& a) {
     double sum = 0;
     for (const Vec3& c : a)
-        sum += double(luma(c));
+        sum += double(luminance_of(c));
     return sum / double(a.size());
 }
 

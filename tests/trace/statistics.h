@@ -1,6 +1,7 @@
 // Means with their error, of pictures made by two ways.
 #pragma once
 
+#include "math/color.h"
 #include "trace/reference/reference.h"
 
 namespace vitrail::test {
@@ -18,8 +19,7 @@ struct PictureTally {
     Tally blocks[kAcross * kDown]; // luminance
     Tally whole[3];                // red, green, blue
     void add(const trace::Camera& c, u32 x, u32 y, Vec3 v) {
-        blocks[x * kAcross / c.width + y * kDown / c.height * kAcross].add(0.2126 * double(v.x) + 0.7152 * double(v.y) +
-                                                                           0.0722 * double(v.z));
+        blocks[x * kAcross / c.width + y * kDown / c.height * kAcross].add(double(luminance_of(v)));
         whole[0].add(double(v.x)), whole[1].add(double(v.y)), whole[2].add(double(v.z));
     }
 };

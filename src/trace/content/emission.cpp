@@ -1,5 +1,6 @@
 #include "trace/content/emission.h"
 
+#include "math/color.h"
 #include "trace/kernel/texture.h"
 #include "world/block_def.h"
 
@@ -12,10 +13,6 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 constexpr u32 kGrid = 32; // places along each edge of a piece: every texel of content's pictures
-
-float luminance(Vec3 c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
 
 Vec3 axis_of(u32 face) {
     const float side = face & 1 ? 1.0f : -1.0f;
@@ -106,8 +103,8 @@ Vec3 lamp_emission(const std::array<u8, 3>& levels, std::span<const TraceQuad> p
     const u32 strongest = std::max({levels[0], levels[1], levels[2]});
     const std::array<Vec3, 6> plain = wall_returns(pieces, {1, 1, 1}, textures, fixed_tints);
     const Vec3 seen =
-        *std::max_element(plain.begin(), plain.end(), [](Vec3 a, Vec3 b) { return luminance(a) < luminance(b); });
-    if (luminance(seen) <= 0) return {};
+        *std::max_element(plain.begin(), plain.end(), [](Vec3 a, Vec3 b) { return luminance_of(a) < luminance_of(b); });
+    if (luminance_of(seen) <= 0) return {};
 
     // The light's hue: between that of its levels (warmed as shade.glsl warms them) and that of what shines.
     const float by_level = 1 / float(strongest);
@@ -117,12 +114,12 @@ Vec3 lamp_emission(const std::array<u8, 3>& levels, std::span<const TraceQuad> p
     // Where a picture lacks a color, no strength brings it back.
     const auto gain = [](float wanted, float there) { return wanted / std::max(there, 0.2f); };
     Vec3 out{gain(hue.x, painted.x), gain(hue.y, painted.y), gain(hue.z, painted.z)};
-    out = out * (lamp_return(strongest) / luminance(seen * out));
+    out = out * (lamp_return(strongest) / luminance_of(seen * out));
 
     float brightest = 0;
     for (const TraceQuad& q : pieces)
         each_place(q, textures, fixed_tints, [&](Vec3, float, float, Vec3 radiance, float) {
-            brightest = std::max(brightest, luminance(radiance * out));
+            brightest = std::max(brightest, luminance_of(radiance * out));
         });
     return brightest > radiance_most ? out * (radiance_most / brightest) : out;
 }

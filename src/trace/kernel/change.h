@@ -18,7 +18,7 @@ VX_HD void watch_tile(const FilmPlanes& p, i32 tx, i32 ty) {
         const u32 i = level_at(p, x, y);
         const Vec4 light = p.next.light[i], fast = p.next.fast[i];
         if (light.w < kWatched) continue;
-        const float slow_l = luma(light.x, light.y, light.z), fast_l = luma(fast.x, fast.y, fast.z);
+        const float slow_l = luminance_of(light.x, light.y, light.z), fast_l = luminance_of(fast.x, fast.y, fast.z);
         const float d = fast_l - slow_l;
         sum = plus(sum, {d, d * d, larger(fast_l, slow_l), 1}, 1);
     }
@@ -68,7 +68,7 @@ VX_HD float variance_around(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 
             const Site s = site_at(p.now, q);
             const float off = std::fabs(s.depth - own.depth - sx * float(dx) - sy * float(dy)) * scale;
             const float w = power_32(own.nx * s.nx + own.ny * s.ny + own.nz * s.nz) * falloff(off);
-            const float l = luma(light.r[q], light.g[q], light.b[q]);
+            const float l = luminance_of(light.r[q], light.g[q], light.b[q]);
             weight += w;
             sum += w * l;
             squares += w * l * l;
@@ -101,7 +101,7 @@ VX_HD void respond_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y) 
                 fast = toward(fast, now, 0.5f * change);
                 fast.w = w;
             }
-            const float length = light.w, l = luma(fast.x, fast.y, fast.z);
+            const float length = light.w, l = luminance_of(fast.x, fast.y, fast.z);
             light = toward(light, fast, change);
             light.w = lerp(length, smaller(length, 1.0f), change);
             fast.w = lerp(fast.w, l * l + around, change);

@@ -6,6 +6,7 @@
 //           margin's inverse depth, kNothing, belongs to no surface): index y * stride + x, the pointer is pixel 0, 0's
 #pragma once
 
+#include "math/color.h"
 #include "trace/kernel/camera.h"
 #include "trace/kernel/pixel.h"
 
@@ -137,12 +138,5 @@ VX_HD Vec4 toward(Vec4 a, Vec4 b, float t) {
     return __builtin_bit_cast(Vec4, quad(a) + (quad(b) - quad(a)) * t);
 }
 #endif
-
-VX_HD float luma(float r, float g, float b) { // of linear sRGB (Rec. 709)
-    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
-}
-VX_HD float luma(Vec3 c) {
-    return luma(c.x, c.y, c.z);
-}
 
 } // namespace vitrail::trace

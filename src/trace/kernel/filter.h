@@ -66,10 +66,10 @@ VX_HD void find_spike(const FilmPlanes& p, float most, i32 step, i32 x, i32 y) {
             const float r = p.light.r[q], other = dx == 0 && dy == 0 ? 0.0f : 1.0f;
             const float like = other * neighbor_weight(own, site_at(p.now, q)), w = r >= 0 ? like : 0.0f;
             weight += w;
-            sum += w * luma(r, p.light.g[q], p.light.b[q]);
+            sum += w * luminance_of(r, p.light.g[q], p.light.b[q]);
         }
     }
-    const float l = luma(p.light.r[j], p.light.g[j], p.light.b[j]);
+    const float l = luminance_of(p.light.r[j], p.light.g[j], p.light.b[j]);
     const float limit = most * sum / (weight + 1e-6f);
     const float over = larger(l, limit) + 1e-30f; // alone on its surface it stays whole
     const float within = (limit + 1e-30f) / over, keep = weight > 0.5f ? within : 1.0f;
@@ -168,7 +168,7 @@ VX_HD void filter_light(const FilmPlanes& p, const Framed4& from, const Framed4&
     const i32 j = framed_at(p, x, y);
     const Site own = site_at(p.now, j);
     const float own_scale = depth_scale(own.depth), sx = p.slope_x[j] * float(step), sy = p.slope_y[j] * float(step);
-    const float r0 = from.r[j], g0 = from.g[j], b0 = from.b[j], v0 = from.v[j], l0 = luma(r0, g0, b0);
+    const float r0 = from.r[j], g0 = from.g[j], b0 = from.b[j], v0 = from.v[j], l0 = luminance_of(r0, g0, b0);
     const float center = v0 >= 0 ? 0.375f * 0.375f : 0.0f, own_variance = v0 >= 0 ? v0 : 1e20f;
     float weight = center, r = center * r0, g = center * g0, b = center * b0, v = center * center * v0;
     VX_UNROLL
@@ -180,7 +180,7 @@ VX_HD void filter_light(const FilmPlanes& p, const Framed4& from, const Framed4&
             const Site s = site_at(p.now, q);
             const float qr = from.r[q], qg = from.g[q], qb = from.b[q], qv = from.v[q];
             const float off = std::fabs(s.depth - own.depth - sx * float(dx) - sy * float(dy)) * own_scale;
-            const float unlike = std::fabs(luma(qr, qg, qb) - l0);
+            const float unlike = std::fabs(luminance_of(qr, qg, qb) - l0);
             const float light = unlike * unlike / (5 * (own_variance + qv) + 1e-12f);
             const float n = power_32(own.nx * s.nx + own.ny * s.ny + own.nz * s.nz);
             const float like = spline_weight(dx) * spline_weight(dy) * n * falloff(off + light);

@@ -190,7 +190,7 @@ VX_HD void reproject_pixel(const FilmPlanes& p, const FilmFrame& f, i32 x, i32 y
         return;
     }
     const Vec4 now{light.r[j], light.g[j], light.b[j], 0};
-    const float l = luma(now.x, now.y, now.z);
+    const float l = luminance_of(now.x, now.y, now.z);
     // A guess from neighbors counts less than a sample of one's own.
     const float count = own ? 1.0f : 0.4f;
     float old = 0;

@@ -23,7 +23,7 @@ VX_HD Vec4 radiance_at(const FilmPlanes& p, const Framed4& light, const Framed3&
 // Light squeezed to 0..1, so that one bright pixel does not rule its neighbors (Karis, "High-Quality Temporal
 // Supersampling", 2014), as luma and two differences (YCoCg: edges there lie along the axes).
 VX_HD Vec3 squeezed(Vec4 c) {
-    const float s = 1 / (1 + luma(c.x, c.y, c.z));
+    const float s = 1 / (1 + luminance_of(c.x, c.y, c.z));
     const float r = c.x * s, g = c.y * s, b = c.z * s;
     return {0.25f * r + 0.5f * g + 0.25f * b, 0.5f * r - 0.5f * b, -0.25f * r + 0.5f * g - 0.25f * b};
 }
@@ -56,7 +56,7 @@ VX_HD void merge_pixel(const FilmPlanes& p, const Framed4& light, const Framed3&
 VX_HD Vec3 unsqueezed(Vec3 c) {
     const float t = c.x - c.z;
     const Vec3 rgb{larger(0, t + c.y), larger(0, c.x + c.z), larger(0, t - c.y)};
-    return rgb * (1 / larger(1e-4f, 1 - luma(rgb)));
+    return rgb * (1 / larger(1e-4f, 1 - luminance_of(rgb)));
 }
 
 // Where a path chooses between mirror and passage (water, glass), a pixel shows now one surface, now another, and what

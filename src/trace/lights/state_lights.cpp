@@ -1,5 +1,7 @@
 #include "trace/lights/state_lights.h"
 
+#include "math/color.h"
+
 #include <algorithm>
 #include <optional>
 
@@ -91,8 +93,7 @@ std::vector<StateLight> make_state_lights(const SceneView& scene, u32 quad_count
         out.liquid = s.kind == CellKind::liquid;
         if (out.liquid) out.top = float(s.liquid_height + 1) / 256;
         const float luminance =
-            (0.2126f * float(s.emission[0]) + 0.7152f * float(s.emission[1]) + 0.0722f * float(s.emission[2])) *
-            StateRecord::kEmissionUnit;
+            luminance_of(float(s.emission[0]), float(s.emission[1]), float(s.emission[2])) * StateRecord::kEmissionUnit;
         if (!(luminance > 0)) continue;
         if (s.kind != CellKind::model && s.kind != CellKind::empty) {
             for (int f = 0; f < 6; ++f) {
