@@ -7,13 +7,6 @@
 
 namespace vitrail::trace {
 
-// What is left of light after `length` blocks (kFar: from the sky) of mist or of a medium.
-VX_COLD Vec3 stretch_left(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium) {
-    if (medium != 0) return medium_left(s, ray.from, length, medium);
-    const float left = air_passes(air_stretch(sky, ray.from, ray.dir, length));
-    return {left, left, left};
-}
-
 struct Speck {
     float distance = 0;
     Vec3 weight;           // what light that comes in there counts for
@@ -23,23 +16,35 @@ struct Speck {
 // Thin air is asked seldom, and counts more then.
 inline constexpr float kThinAir = 0.1f;
 
-VX_COLD Speck sample_speck(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium, float u) {
-    Speck out;
+struct Stretch {
+    Speck speck;
+    Vec3 left{1, 1, 1}; // share of the light behind it that passes
+};
+
+// A ray's way of `length` blocks (kFar: up to the sky) through mist or a medium. u: 0..1, where it scatters.
+VX_COLD Stretch cross_stretch(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium,
+                              float u) {
+    Stretch out;
     if (medium != 0) {
         const scene::LiquidOptics optics = medium_optics(s, ray.from, medium);
-        if (!(greatest(optics.scattering) > 0)) return out;
-        const LiquidPoint p = sample_liquid_point(optics.absorption, optics.scattering, length, u);
-        return {p.t, p.weight, p.pdf > 0};
+        if (greatest(optics.scattering) > 0) {
+            const LiquidPoint p = sample_liquid_point(optics.absorption, optics.scattering, length, u);
+            out.speck = {p.t, p.weight, p.pdf > 0};
+        }
+        out.left = medium_left(s, ray.from, length, medium);
+        return out;
     }
     const AirStretch air = air_stretch(sky, ray.from, ray.dir, length);
-    const float takes = air.haze_takes + air.mist_takes;
+    const float left = air_passes(air), takes = air.haze_takes + air.mist_takes;
+    out.left = {left, left, left};
     if (!(takes > 1e-6f)) return out;
     const float asked = takes < kThinAir ? takes * (1 / kThinAir) : 1.0f;
     if (u >= asked) return out;
     u = u / asked < kBelowOne ? u / asked : kBelowOne;
     const AirPoint p = sample_air_point(air, u);
     const float weight = p.weight / asked;
-    return {p.t, {weight, weight, weight}, p.weight > 0};
+    out.speck = {p.t, {weight, weight, weight}, p.weight > 0};
+    return out;
 }
 
 // A direction from there to a light, and what it brings to the eye if nothing is in its way. False: nothing.
