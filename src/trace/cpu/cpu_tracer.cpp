@@ -1,7 +1,7 @@
 #include "trace/cpu/cpu_tracer.h"
 
 #include "base/clock.h"
-#include "trace/kernel/path.h"
+#include "trace/cpu/path_stream.h"
 #include "trace/sky_source.h"
 
 #include <algorithm>
@@ -11,7 +11,58 @@
 namespace vitrail::trace {
 
 // Neighboring paths meet the same chunks: a tile's are in the cache.
-constexpr u32 kTileSide = 16;
+constexpr u32 kTileSide = 32;
+static_assert(kTileSide * kTileSide <= kPathsAtOnce);
+
+namespace {
+
+struct Tile {
+    u32 x0, y0, x1, y1;
+};
+
+// A thread's room for paths, and what they start from and come to.
+struct Work {
+    PathRoom room;
+    std::vector<PathStart> starts;
+    std::vector<PixelSample> sums;
+};
+
+struct Traced {
+    u64 rays = 0, paths = 0;
+};
+
+// Those pixels of a tile that the film wants light of, or those that it does not.
+Traced trace_pixels(const SceneView& scene, const SkyView& sky, const Camera& camera, const PathSettings& settings,
+                    u32 samples, const Tile& tile, bool light, Film& film) {
+    static thread_local Work work;
+    Traced traced;
+    SampleMean mean;
+    const auto trace = [&] {
+        work.sums.resize(work.starts.size());
+        traced.rays += trace_paths(scene, sky, camera, settings, work.starts, work.sums, work.room);
+        traced.paths += work.starts.size();
+        for (std::size_t i = 0; i < work.starts.size(); ++i) {
+            const PathStart& s = work.starts[i];
+            add_sample(mean, work.sums[i]);
+            if (s.sample + 1 < samples) continue;
+            film.put(s.x, s.y, mean);
+            mean = {};
+        }
+        work.starts.clear();
+    };
+    for (u32 y = tile.y0; y < tile.y1; ++y)
+        for (u32 x = tile.x0; x < tile.x1; ++x) {
+            if (film.wants_light(x, y) != light) continue;
+            for (u32 s = 0; s < samples; ++s) {
+                work.starts.push_back({x, y, s});
+                if (work.starts.size() == kPathsAtOnce) trace();
+            }
+        }
+    trace();
+    return traced;
+}
+
+} // namespace
 
 CpuTracer::CpuTracer(const TracerOptions& options)
     : pool_(options.pool)
@@ -58,19 +109,10 @@ Result<> CpuTracer::render(const scene::FrameView& frame, const TraceSettings& s
     const auto trace_tile = [&](u32 tile) {
         const u32 x0 = tile % across * kTileSide, y0 = tile / across * kTileSide;
         const u32 x1 = std::min(x0 + kTileSide, frame.width), y1 = std::min(y0 + kTileSide, frame.height);
-        u64 tile_rays = 0, tile_paths = 0;
-        for (u32 y = y0; y < y1; ++y)
-            for (u32 x = x0; x < x1; ++x) {
-                const bool light = film_.wants_light(x, y);
-                SampleMean mean;
-                for (u32 s = 0; s < (light ? settings.samples : 1); ++s) {
-                    u32 of_path = 0;
-                    add_sample(mean, trace_path(scene, sky, camera, light ? full : guides, x, y, s, of_path));
-                    tile_rays += of_path, ++tile_paths;
-                }
-                film_.put(x, y, mean);
-            }
-        rays += tile_rays, paths += tile_paths;
+        const Tile t{x0, y0, x1, y1};
+        const Traced lit = trace_pixels(scene, sky, camera, full, settings.samples, t, true, film_),
+                     dark = trace_pixels(scene, sky, camera, guides, 1, t, false, film_);
+        rays += lit.rays + dark.rays, paths += lit.paths + dark.paths;
     };
     if (pool_)
         pool_->parallel_for(across * down, trace_tile);

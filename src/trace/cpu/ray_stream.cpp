@@ -13,12 +13,6 @@ bool avx512_cpu() {
            __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vbmi2");
 }
 
-StreamCode chosen(StreamCode code) {
-    if (code != StreamCode::best) return code;
-    static const bool wide = avx512_cpu();
-    return wide ? StreamCode::avx512 : StreamCode::scalar;
-}
-
 stream::Rays plain(const RayStream& r) {
     VX_ASSERT(r.t_max.empty() || r.t_max.size() == r.rays.size());
     VX_ASSERT(r.media.empty() || r.media.size() == r.rays.size());
@@ -28,6 +22,12 @@ stream::Rays plain(const RayStream& r) {
 
 } // namespace
 
+StreamCode chosen_stream_code(StreamCode code) {
+    if (code != StreamCode::best) return code;
+    static const bool wide = avx512_cpu();
+    return wide ? StreamCode::avx512 : StreamCode::scalar;
+}
+
 bool stream_code_available(StreamCode code) {
     return code != StreamCode::avx512 || avx512_cpu();
 }
@@ -35,7 +35,8 @@ bool stream_code_available(StreamCode code) {
 void trace_stream(StreamCode code, const SceneView& scene, const RayStream& rays, std::span<Hit> hits) {
     VX_ASSERT(hits.size() == rays.rays.size());
     const stream::Rays r = plain(rays);
-    if (chosen(code) == StreamCode::avx512 && scene.grid.skips) return stream::trace_avx512(scene, r, hits.data());
+    if (chosen_stream_code(code) == StreamCode::avx512 && scene.grid.skips)
+        return stream::trace_avx512(scene, r, hits.data());
     for (u32 i = 0; i < r.count; ++i)
         stream::trace_one(scene, r, i, hits.data());
 }
@@ -43,7 +44,8 @@ void trace_stream(StreamCode code, const SceneView& scene, const RayStream& rays
 void shadow_stream(StreamCode code, const SceneView& scene, const RayStream& rays, std::span<Lit> lit) {
     VX_ASSERT(lit.size() == rays.rays.size());
     const stream::Rays r = plain(rays);
-    if (chosen(code) == StreamCode::avx512 && scene.grid.skips) return stream::shadow_avx512(scene, r, lit.data());
+    if (chosen_stream_code(code) == StreamCode::avx512 && scene.grid.skips)
+        return stream::shadow_avx512(scene, r, lit.data());
     for (u32 i = 0; i < r.count; ++i)
         stream::shadow_one(scene, r, i, lit.data());
 }

@@ -27,6 +27,7 @@ void shadow_stream(const SceneView& scene, const RayStream& rays, std::span<Lit>
 // Which code runs: chosen by CPU, or asked for (tests, benchmarks).
 enum class StreamCode : u8 { best, scalar, avx512 };
 bool stream_code_available(StreamCode code);
+StreamCode chosen_stream_code(StreamCode code); // what `best` is here
 void trace_stream(StreamCode code, const SceneView& scene, const RayStream& rays, std::span<Hit> hits);
 void shadow_stream(StreamCode code, const SceneView& scene, const RayStream& rays, std::span<Lit> lit);
 

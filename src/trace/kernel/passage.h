@@ -64,16 +64,28 @@ VX_COLD bool cross_pane(const SceneView& scene, const Ray& ray, const Hit& pane,
     return !(greatest(value) > 0);
 }
 
+// How far a ray to a light `distance` ahead (kFar: the sky) is traced: not onto the lamp itself. Not above 0: nothing
+// can be in its way.
+VX_HD float light_reach(float distance) {
+    const float margin = 1e-4f * distance;
+    return distance < kFar ? distance - (margin > 1e-3f ? margin : 1e-3f) : kFar;
+}
+
+// value loses what the medium of a light ray's last stretch takes, which begins `since` blocks from the ray's start.
+VX_HD void cross_last(const SceneView& scene, const Ray& ray, float distance, float since, u32 medium, Vec3& value) {
+    if (medium != 0) value = value * medium_left(scene, moved(ray.from, ray.dir, since), distance - since, medium);
+}
+
 // Light goes from `distance` ahead straight back to the ray's start, through borders; value loses what they take.
 // medium: of the start. False: none arrives.
 VX_HD_CALL bool light_passes(const SceneView& scene, const Ray& ray, float distance, u32 medium, Vec3& value) {
-    const float most = distance < kFar ? distance - std::fmax(1e-3f, 1e-4f * distance) : kFar;
+    const float most = light_reach(distance);
     if (!(most > 0)) return true;
     float since = 0;
     const bool dark = shadowed(scene, ray, most, medium,
                                [&](const Hit& pane) { return cross_pane(scene, ray, pane, since, medium, value); });
     if (dark) return false;
-    if (medium != 0) value = value * medium_left(scene, moved(ray.from, ray.dir, since), distance - since, medium);
+    cross_last(scene, ray, distance, since, medium, value);
     return true;
 }
 
