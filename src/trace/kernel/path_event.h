@@ -2,6 +2,7 @@
 // counted, and why, stands in path.h. Kernel-safe.
 #pragma once
 
+#include "math/color.h"
 #include "trace/kernel/bsdf.h"
 #include "trace/kernel/lights.h"
 #include "trace/kernel/passage.h"
@@ -38,10 +39,6 @@ VX_HD float power_heuristic(float a, float b) {
     return a2 + b2 > 0 ? a2 / (a2 + b2) : 0;
 }
 
-VX_HD float luminance(Vec3 c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
-
 // lights.h as calls.
 VX_COLD bool find_lamp(const SceneView& scene, Place at, Vec3 side, float choose, Vec2 u, EmitterSample& out) {
     return sample_emitter(scene, at, side, choose, u, out);
@@ -53,7 +50,7 @@ VX_COLD float chance_of_lamp(const SceneView& scene, Place at, Vec3 side, Vec3 d
 // Adds light that scattered on its way to the eye, holding single finds.
 VX_HD void add_light(Vec3& sum, Vec3 found, bool indirect, const PathSettings& settings) {
     if (indirect && settings.firefly_limit > 0) {
-        const float l = luminance(found);
+        const float l = luminance_of(found);
         if (l > settings.firefly_limit) found = found * (settings.firefly_limit / l);
     }
     sum += found;
