@@ -10,5 +10,6 @@ void register_denoise_benches(bench::Suite& suite);
 void register_shade_benches(bench::Suite& suite);
 void register_ray_benches(bench::Suite& suite);
 void register_path_benches(bench::Suite& suite);
+void register_light_benches(bench::Suite& suite);
 
 } // namespace vitrail
