@@ -29,9 +29,9 @@ void LightStore::set_states(const SceneView& scene, u32 quad_count) {
 
 void LightStore::clear() {
     chunks_.clear();
-    regions_.clear();
+    for (u32 level = 0; level < kLevels; ++level)
+        regions_[level].clear(), dirty_[level].clear();
     marked_.clear();
-    dirty_regions_.clear();
     emitters_.resize(0);
     nodes_.resize(0);
     table_.resize(0);
@@ -187,24 +187,88 @@ void LightStore::drop_chunk(ChunkPos at) {
     count_ -= c.count;
     c.first = kNone;
     c.count = 0;
+    if (c.tree.root.power > 0) remove_member(0, at);
     release(c.tree);
-    if (const auto region = regions_.find(region_of(at)); region != regions_.end()) {
-        if (std::erase(region->second.chunks, at)) dirty_regions_.insert(region_of(at));
+}
+
+// member, of that level's regions (0: a chunk), has lamps now, or other ones.
+void LightStore::add_member(u32 level, ChunkPos member) {
+    const ChunkPos at = parent_of(member);
+    std::vector<ChunkPos>& members = regions_[level][at].members;
+    const auto place = std::lower_bound(members.begin(), members.end(), member, earlier);
+    if (place == members.end() || !(*place == member)) members.insert(place, member);
+    dirty_[level].insert(at);
+}
+void LightStore::remove_member(u32 level, ChunkPos member) {
+    const ChunkPos at = parent_of(member);
+    std::erase(regions_[level][at].members, member);
+    dirty_[level].insert(at);
+}
+
+// The trees of a level's regions that changed; the next level is told.
+void LightStore::replant(u32 level) {
+    std::vector<LightNode> items;
+    for (ChunkPos at : dirty_[level]) {
+        Region& region = regions_[level].at(at);
+        if (region.members.empty()) {
+            release(region.tree);
+            regions_[level].erase(at);
+            if (level + 1 < kLevels) remove_member(level + 1, at);
+            continue;
+        }
+        items.clear();
+        for (ChunkPos member : region.members)
+            items.push_back(level == 0 ? chunks_.at(member).tree.root : regions_[level - 1].at(member).tree.root);
+        plant(region.tree, items);
+        if (level + 1 < kLevels) add_member(level + 1, at);
     }
+    dirty_[level].clear();
+}
+
+void LightStore::replant_top() {
+    if (nodes_.size() == 0) nodes_.resize(1);
+    const auto& regions = regions_[kLevels - 1];
+    if (regions.empty()) {
+        release(top_);
+        return;
+    }
+    std::vector<ChunkPos> order;
+    for (const auto& [at, region] : regions)
+        order.push_back(at);
+    std::sort(order.begin(), order.end(), earlier);
+    std::vector<LightNode> items;
+    for (ChunkPos at : order)
+        items.push_back(regions.at(at).tree.root);
+    LightNode root = plant(top_, items);
+    root.parent = 0;
+    nodes_.edit(0) = root;
+    attach(0);
+}
+
+bool LightStore::same_lamps(const ChunkLights& c, const std::vector<Emitter>& found) const {
+    if (c.count != found.size()) return false;
+    for (u32 i = 0; i < c.count; ++i) {
+        const Emitter& held = emitters_[c.first + i];
+        if (!(held.cell == found[i].cell) || held.state != found[i].state || held.faces != found[i].faces) return false;
+    }
+    return true;
 }
 
 void LightStore::relist(ChunkPos at, const GridView& grid) {
-    drop_chunk(at);
     const auto it = chunks_.find(at);
     if (it == chunks_.end()) return;
     if (!it->second.chunk || !in_window(grid, {at.x, at.y, at.z})) {
+        drop_chunk(at);
         chunks_.erase(it);
         return;
     }
     ChunkLights& c = it->second;
     std::vector<Emitter> found;
     list(at, *c.chunk, grid, found);
+    if (c.from == from_ && same_lamps(c, found)) return;
+    drop_chunk(at);
     if (found.empty()) return;
+    c.from = from_;
     c.count = u32(found.size());
     c.first = emitter_pool_.take(c.count);
     if (emitters_.size() < emitter_pool_.end()) emitters_.resize(emitter_pool_.end());
@@ -218,8 +282,7 @@ void LightStore::relist(ChunkPos at, const GridView& grid) {
         table_insert(c.first + i);
     }
     plant(c.tree, leaves);
-    regions_[region_of(at)].chunks.push_back(at);
-    dirty_regions_.insert(region_of(at));
+    add_member(0, at);
 }
 
 // Boxes stay relative to one block until the window is far from it.
@@ -246,38 +309,12 @@ void LightStore::update(const GridView& grid) {
     for (ChunkPos at : marked_)
         relist(at, grid);
     marked_.clear();
-    if (dirty_regions_.empty()) return;
-    std::vector<LightNode> items;
-    for (ChunkPos at : dirty_regions_) {
-        Region& region = regions_[at];
-        if (region.chunks.empty()) {
-            release(region.tree);
-            regions_.erase(at);
-            continue;
-        }
-        items.clear();
-        std::sort(region.chunks.begin(), region.chunks.end(), earlier);
-        for (ChunkPos c : region.chunks)
-            items.push_back(chunks_.at(c).tree.root);
-        plant(region.tree, items);
+    bool changed = false;
+    for (u32 level = 0; level < kLevels; ++level) {
+        changed |= !dirty_[level].empty();
+        replant(level);
     }
-    dirty_regions_.clear();
-    if (nodes_.size() == 0) nodes_.resize(1);
-    if (regions_.empty()) {
-        release(top_);
-        return;
-    }
-    items.clear();
-    std::vector<ChunkPos> order;
-    for (const auto& [at, region] : regions_)
-        order.push_back(at);
-    std::sort(order.begin(), order.end(), earlier);
-    for (ChunkPos at : order)
-        items.push_back(regions_.at(at).tree.root);
-    LightNode root = plant(top_, items);
-    root.parent = 0;
-    nodes_.edit(0) = root;
-    attach(0);
+    if (changed || nodes_.size() == 0) replant_top();
 }
 
 LightView LightStore::view() const {

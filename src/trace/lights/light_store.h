@@ -1,4 +1,5 @@
-// All lamps of the window: lists a chunk, trees a chunk, a region and over all, and the table from cells to lamps.
+// All lamps of the window: lists a chunk, trees a chunk, a region, a larger region and over all, and the table from
+// cells to lamps.
 //
 //     LightStore lights;
 //     lights.set_states(scene, quad_count);        // new content; then mark all chunks
@@ -7,8 +8,8 @@
 //     scene.lights = lights.view();
 //
 // Faces that an opaque cube covers do not count, nor cells inside a lake of lava, so a lake is its surface. A change
-// costs the scan of its chunk and of those neighbors that hold lamps, and the trees of one region and above: tens of
-// microseconds. One thread.
+// costs the scan of its chunk and of those neighbors that hold lamps, and, where lamps changed, one tree a level, of at
+// most 64 branches each. One thread.
 #pragma once
 
 #include "trace/kernel/scene_view.h"
@@ -52,13 +53,16 @@ private:
     struct ChunkLights {
         ChunkPtr chunk;
         u32 first = kNone, count = 0; // block in emitters_
+        IVec3 from;                   // that the tree's boxes are relative to
         Tree tree;
     };
     struct Region {
-        std::vector<ChunkPos> chunks; // with lamps
+        std::vector<ChunkPos> members; // with lamps, in order: chunks or smaller regions
         Tree tree;
     };
-    static ChunkPos region_of(ChunkPos c) { return {c.x >> 3, c.y >> 3, c.z >> 3}; }
+    // Regions of 4^3 chunks, and of 4^3 of those.
+    static constexpr u32 kLevels = 2;
+    static ChunkPos parent_of(ChunkPos c) { return {c.x >> 2, c.y >> 2, c.z >> 2}; }
 
     bool may_emit(const Chunk& chunk) const;
     void list(ChunkPos at, const Chunk& chunk, const GridView& grid, std::vector<Emitter>& out) const;
@@ -66,6 +70,11 @@ private:
     LightNode leaf_of(const Emitter& e) const;
     void drop_chunk(ChunkPos at);
     void relist(ChunkPos at, const GridView& grid);
+    bool same_lamps(const ChunkLights& c, const std::vector<Emitter>& found) const;
+    void add_member(u32 level, ChunkPos member);
+    void remove_member(u32 level, ChunkPos member);
+    void replant(u32 level);
+    void replant_top();
     LightNode plant(Tree& tree, const std::vector<LightNode>& items);
     void attach(u32 slot);
     void release(Tree& tree);
@@ -76,8 +85,8 @@ private:
 
     std::vector<StateLight> states_;
     std::unordered_map<ChunkPos, ChunkLights> chunks_; // that hold states which emit
-    std::unordered_map<ChunkPos, Region> regions_;
-    std::unordered_set<ChunkPos> marked_, dirty_regions_;
+    std::unordered_map<ChunkPos, Region> regions_[kLevels];
+    std::unordered_set<ChunkPos> marked_, dirty_[kLevels];
     TrackedArray<Emitter> emitters_;
     TrackedArray<LightNode> nodes_;
     TrackedArray<u32> table_;
