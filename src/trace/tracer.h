@@ -59,6 +59,7 @@ struct TracerStats {
     u64 host_bytes = 0, device_bytes = 0;
     u32 chunks = 0, emitters = 0;
     std::string device;
+    bool shown_directly = false; // the last write_texture stayed on the device
 };
 
 class Tracer {

@@ -1,1 +1,1 @@
-target_link_libraries(test_trace PRIVATE vitrail_script)
+target_link_libraries(test_trace PRIVATE vitrail_script vitrail_platform)

@@ -95,7 +95,9 @@ public:
     Result<> write_texture(u32 texture) override {
         const FilmPlanes& p = film_->planes();
         if (p.width == 0) return fail(ErrorCode::not_found, "nothing was traced yet");
-        return gl_->write(texture, p.color, p.width, p.height);
+        VX_TRY(gl_->write(texture, p.color, p.width, p.height));
+        stats_.shown_directly = gl_->direct();
+        return {};
     }
     const TracerStats& stats() const override { return stats_; }
 

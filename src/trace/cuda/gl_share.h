@@ -22,6 +22,7 @@ public:
 
     // pixels: 4 floats each on the device, rows from the top; after what its stream does now.
     Result<> write(u32 texture, const void* pixels, u32 width, u32 height);
+    bool direct() const { return resource_ != nullptr; } // the last write was by a shared buffer
 
 private:
     bool shares() const;
