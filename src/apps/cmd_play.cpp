@@ -21,9 +21,8 @@ static fs::path data_folder() {
 static Result<client::TraceOptions> trace_options_of(const std::vector<std::string>& changes, const client::TraceOptions& otherwise) {
     client::TraceOptions options = otherwise;
     for (const std::string& change : changes) {
-        const std::size_t equals = change.find('=');
-        if (equals == std::string::npos) return fail(ErrorCode::invalid_argument, fmt::format("--trace wants KEY=VALUE, not '{}'", change));
-        VX_TRY(client::set_trace_option(options, change.substr(0, equals), change.substr(equals + 1)));
+        VX_TRY_ASSIGN(const auto set, parse_change("--trace", change));
+        VX_TRY(client::set_trace_option(options, set.first, set.second));
     }
     return options;
 }

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vitrail {
@@ -120,6 +121,8 @@ Result<Content> load_base_content();
 Result<std::vector<double>> parse_numbers(const std::string& option, const std::string& text, std::size_t count);
 // "854x480"; 16 to 16384 a side, at most 64 million pixels.
 Result<std::pair<u32, u32>> parse_size(const std::string& text);
+// KEY=VALUE, split at the first =. Errors: invalid_argument, naming the option.
+Result<std::pair<std::string, std::string>> parse_change(const std::string& option, const std::string& text);
 // Writes a file whole (beside it first, then renamed) or says why not.
 Result<> write_file(const std::string& path, const std::string& text);
 // An early answer to "can this file be written?", before long work. The folder must exist; nothing is left behind.

@@ -111,6 +111,12 @@ Result<std::pair<u32, u32>> parse_size(const std::string& text) {
     return fail(ErrorCode::invalid_argument, fmt::format("--size wants WxH of 16 to 16384 a side and at most 64 million pixels, not '{}'", text));
 }
 
+Result<std::pair<std::string, std::string>> parse_change(const std::string& option, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) return fail(ErrorCode::invalid_argument, fmt::format("{} wants KEY=VALUE, not '{}'", option, text));
+    return std::pair{text.substr(0, equals), text.substr(equals + 1)};
+}
+
 Result<std::string> read_text_file(const std::string& path, std::size_t bytes_most) {
     std::error_code error;
     if (fs::is_directory(path, error)) return fail(ErrorCode::io, fmt::format("cannot read {}: it is a folder", path));

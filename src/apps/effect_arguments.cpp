@@ -1,5 +1,7 @@
 #include "apps/effect_arguments.h"
 
+#include "apps/commands.h"
+
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -24,10 +26,8 @@ Result<render::Effects> effects_of(const EffectArguments& arguments, const rende
         effects = render::preset_effects(*preset);
     }
     for (const std::string& change : arguments.changes) {
-        const std::size_t equals = change.find('=');
-        if (equals == std::string::npos)
-            return fail(ErrorCode::invalid_argument, fmt::format("--effect wants KEY=VALUE, not '{}'", change));
-        VX_TRY(render::set_effect(effects, change.substr(0, equals), change.substr(equals + 1)));
+        VX_TRY_ASSIGN(const auto set, parse_change("--effect", change));
+        VX_TRY(render::set_effect(effects, set.first, set.second));
     }
     std::error_code ignored;
     if (!arguments.shader_folder.empty() && !std::filesystem::is_directory(arguments.shader_folder, ignored))

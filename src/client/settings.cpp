@@ -65,7 +65,7 @@ static std::string packs_text(const std::vector<std::string>& packs) {
 }
 
 // A value as the tables of options read it; empty where it is of no kind they know.
-static std::string option_text(const toml::node& node) {
+static std::string text_of(const toml::node& node) {
     if (const auto text = node.value_exact<std::string>()) return *text;
     if (const auto yes = node.value_exact<bool>()) return *yes ? "true" : "false";
     if (const auto whole = node.value_exact<i64>()) return fmt::format("{}", *whole);
@@ -81,7 +81,7 @@ static void read_effects(const toml::table& table, render::Effects& effects) {
     if (!changes) return;
     for (const render::EffectOption& option : render::effect_options()) {
         // What does not fit keeps the preset's value.
-        if (const toml::node* node = changes->get(option.key)) (void)render::set_effect(effects, option.key, option_text(*node));
+        if (const toml::node* node = changes->get(option.key)) (void)render::set_effect(effects, option.key, text_of(*node));
     }
 }
 
@@ -92,15 +92,15 @@ static std::string effects_text(const render::Effects& effects) {
         const render::Effects preset = render::preset_effects(render::Preset(i));
         u32 differ = 0;
         for (const render::EffectOption& option : render::effect_options())
-            differ += render::effect_text(preset, option) != render::effect_text(effects, option);
+            differ += option_text(option, preset) != option_text(option, effects);
         if (differ < fewest) fewest = differ, nearest = i;
     }
     const render::Effects preset = render::preset_effects(render::Preset(nearest));
     std::string text = fmt::format("quality = \"{}\"\n", render::preset_name(render::Preset(nearest)));
     if (fewest > 0) text += "[effects]\n";
     for (const render::EffectOption& option : render::effect_options()) {
-        const std::string value = render::effect_text(effects, option);
-        if (value == render::effect_text(preset, option)) continue;
+        const std::string value = option_text(option, effects);
+        if (value == option_text(option, preset)) continue;
         text += option.choices.empty() ? fmt::format("\"{}\" = {}\n", option.key, value)
                                        : fmt::format("\"{}\" = \"{}\"\n", option.key, value);
     }
@@ -112,14 +112,14 @@ static void read_trace(const toml::table& table, TraceOptions& options) {
     const toml::table* changes = table["trace"].as_table();
     if (!changes) return;
     for (const TraceOption& option : trace_option_list())
-        if (const toml::node* node = changes->get(option.key)) (void)set_trace_option(options, option.key, option_text(*node));
+        if (const toml::node* node = changes->get(option.key)) (void)set_trace_option(options, option.key, text_of(*node));
 }
 
 static std::string trace_text(const TraceOptions& options) {
     std::string text;
     for (const TraceOption& option : trace_option_list()) {
-        const std::string value = trace_option_text(options, option);
-        if (value != trace_option_text({}, option)) text += fmt::format("{} = {}\n", option.key, value);
+        const std::string value = option_text(option, options);
+        if (value != option_text(option, TraceOptions())) text += fmt::format("{} = {}\n", option.key, value);
     }
     return text.empty() ? text : "[trace]\n" + text;
 }

@@ -1,18 +1,14 @@
 #include "client/trace_options.h"
 
-#include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
-#include <optional>
 
 namespace vitrail::client {
 
 namespace {
 
-using Member = TraceOption::Member;
 constexpr float kRateOfGpu = 30, kRateOfCpu = 10;
 
-#define VX_TRACE(name) [](TraceOptions& o) -> Member { return &o.name; }
+#define VX_TRACE(name) [](TraceOptions& o) -> OptionMember { return &o.name; }
 
 const TraceOption kOptions[] = {
     {"hold", "Frame rate",
@@ -32,22 +28,6 @@ const TraceOption kOptions[] = {
      1000},
 };
 
-std::string allowed(const TraceOption& option) {
-    TraceOptions any;
-    const Member member = option.member(any);
-    if (std::holds_alternative<bool*>(member)) return "true or false";
-    return fmt::format("a {}number from {} to {}", std::holds_alternative<i32*>(member) ? "whole " : "", option.least,
-                       option.most);
-}
-
-template <class T>
-std::optional<T> number(std::string_view text) {
-    T value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 } // namespace
 
 std::span<const TraceOption> trace_option_list() {
@@ -55,53 +35,20 @@ std::span<const TraceOption> trace_option_list() {
 }
 
 Result<> set_trace_option(TraceOptions& options, std::string_view key, std::string_view value) {
-    for (const TraceOption& option : kOptions) {
-        if (key != option.key) continue;
-        const auto wrong = [&] {
-            return fail(ErrorCode::invalid_argument, fmt::format("{} is {}, not '{}'", key, allowed(option), value));
-        };
-        const auto fits = [&](auto x) { return float(x) >= option.least && float(x) <= option.most; };
-        const Member member = option.member(options);
-        if (bool* const* b = std::get_if<bool*>(&member)) {
-            const bool yes = value == "true" || value == "on" || value == "1";
-            if (!yes && value != "false" && value != "off" && value != "0") return wrong();
-            **b = yes;
-        } else if (i32* const* i = std::get_if<i32*>(&member)) {
-            const auto x = number<i32>(value);
-            if (!x || !fits(*x)) return wrong();
-            **i = *x;
-        } else {
-            const auto x = number<float>(value);
-            if (!x || !fits(*x)) return wrong();
-            *std::get<float*>(member) = *x;
-        }
-        return {};
-    }
+    if (const TraceOption* option = find_option(trace_option_list(), key)) return set_option(*option, options, value);
     return fail(ErrorCode::invalid_argument, fmt::format("the path tracer has no option '{}'", key));
-}
-
-std::string trace_option_text(const TraceOptions& options, const TraceOption& option) {
-    TraceOptions copy = options;
-    return std::visit([](auto* value) { return fmt::format("{}", *value); }, option.member(copy));
 }
 
 std::string trace_options_table() {
     std::string text = "| option | what it does | values | at first |\n|---|---|---|---|\n";
     const TraceOptions usual;
     for (const TraceOption& option : kOptions)
-        text += fmt::format("| `{}` | {}: {} | {} | {} |\n", option.key, option.label, option.help, allowed(option),
-                            trace_option_text(usual, option));
+        text += fmt::format("{} {} |\n", option_row(option), option_text(option, usual));
     return text;
 }
 
 TraceOptions sane(TraceOptions options) {
-    TraceOptions usual;
-    for (const TraceOption& option : kOptions) {
-        const Member member = option.member(options);
-        if (i32* const* i = std::get_if<i32*>(&member)) **i = std::clamp(**i, i32(option.least), i32(option.most));
-        if (float* const* f = std::get_if<float*>(&member))
-            **f = **f == **f ? std::clamp(**f, option.least, option.most) : *std::get<float*>(option.member(usual));
-    }
+    hold_options(trace_option_list(), options, TraceOptions());
     return options;
 }
 

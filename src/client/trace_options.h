@@ -5,6 +5,7 @@
 //     VX_TRY(set_trace_option(options, "bounces", "2"));
 #pragma once
 
+#include "base/options.h"
 #include "base/result.h"
 #include "base/types.h"
 #include "trace/tracer.h"
@@ -12,7 +13,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 
 namespace vitrail::client {
 
@@ -28,22 +28,14 @@ struct TraceOptions {
     bool operator==(const TraceOptions&) const = default;
 };
 
-struct TraceOption {
-    using Member = std::variant<bool*, i32*, float*>;
-    const char* key;
-    const char* label;
-    const char* help; // one sentence
-    Member (*member)(TraceOptions&);
-    float least = 0, most = 1;                 // of numbers
-    std::span<const char* const> choices = {}; // none has any; as render::EffectOption, for the menu
-};
+using TraceOption = OptionOf<TraceOptions>;
 std::span<const TraceOption> trace_option_list();
 
-// Errors: invalid_argument, for an unknown key or a value of the wrong kind or outside its range.
+// Errors: invalid_argument, for an unknown key or a value of the wrong kind or outside its range (the line names
+// what is allowed). option_text (base/options.h) shows a value as this reads it.
 Result<> set_trace_option(TraceOptions& options, std::string_view key, std::string_view value);
-std::string trace_option_text(const TraceOptions& options, const TraceOption& option); // as set_trace_option reads it
-std::string trace_options_table();                                                     // Markdown (docs/tracing.md)
-TraceOptions sane(TraceOptions options);                                               // every value inside its range
+std::string trace_options_table();       // Markdown (docs/tracing.md)
+TraceOptions sane(TraceOptions options); // every value inside its range
 
 // Frames a second to hold on this device.
 float frame_rate_of(const TraceOptions& options, trace::Device device);

@@ -103,9 +103,8 @@ void draw_loading(const std::string& text, float progress) {
     list->AddRectFilled({x, y}, {x + width * std::clamp(progress, 0.0f, 1.0f), y + 8}, IM_COL32(160, 205, 235, 255), 4);
 }
 
-// A row of a table of options: render::EffectOption or TraceOption.
-template <class Option, class Values>
-static void draw_option(const Option& option, Values& values) {
+template <class Values>
+static void draw_option(const OptionOf<Values>& option, Values& values) {
     ImGui::PushID(option.key);
     const auto member = option.member(values);
     if (bool* const* b = std::get_if<bool*>(&member)) ImGui::Checkbox(option.label, *b);

@@ -6,6 +6,7 @@
 //     for (const EffectOption& option : effect_options()) menu(option, effects);
 #pragma once
 
+#include "base/options.h"
 #include "base/result.h"
 #include "base/types.h"
 
@@ -14,7 +15,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 
 namespace vitrail::render {
 
@@ -93,15 +93,9 @@ struct Effects {
     bool operator==(const Effects&) const = default;
 };
 
-struct EffectOption {
-    using Member = std::variant<bool*, i32*, float*>;
-    const char* key;   // "shadows.size"; the part before the dot is the menu's group
-    const char* label; // "Resolution"
-    const char* help;  // one sentence
-    Member (*member)(Effects&);
-    float least = 0, most = 1;                               // of numbers
-    std::array<float, u32(Preset::count)> presets{};         // booleans as 0 and 1, choices by number
-    std::span<const char* const> choices{};                  // names of an i32's values 0, 1, ...; empty: a plain number
+// The part of the key before the dot is the menu's group.
+struct EffectOption : OptionOf<Effects> {
+    std::array<float, u32(Preset::count)> presets{}; // booleans as 0 and 1, choices by number
 };
 
 std::span<const EffectOption> effect_options();
@@ -114,9 +108,8 @@ std::optional<Preset> preset_from(std::string_view name);
 std::optional<Preset> preset_of(const Effects& effects);
 
 // Errors: invalid_argument, for an unknown key or a value of the wrong kind or outside its range (the line names what is
-// allowed).
+// allowed). option_text (base/options.h) shows a value as this reads it.
 Result<> set_effect(Effects& effects, std::string_view key, std::string_view value);
-std::string effect_text(const Effects& effects, const EffectOption& option); // as set_effect reads it
 // The table of all options as Markdown (docs/effects.md).
 std::string effects_table();
 // Frames of one moment after which a picture is as good as it gets: 1 where nothing builds up from frame to frame.

@@ -249,9 +249,9 @@ TEST(TraceOptions, AreTakenShownAndHeldInRange) {
     EXPECT_FALSE(options.denoise);
     for (const client::TraceOption& option : client::trace_option_list()) {
         client::TraceOptions back;
-        ASSERT_TRUE(client::set_trace_option(back, option.key, client::trace_option_text(options, option)))
+        ASSERT_TRUE(client::set_trace_option(back, option.key, option_text(option, options)))
             << option.key;
-        EXPECT_EQ(client::trace_option_text(back, option), client::trace_option_text(options, option));
+        EXPECT_EQ(option_text(option, back), option_text(option, options));
     }
     const client::TraceOptions before = options;
     for (const auto& [key, value] : {std::pair{"bounces", "17"},

@@ -42,10 +42,10 @@ TEST(Effects, TextSurvivesARoundTrip) {
         const Effects from = preset_effects(Preset(i));
         Effects to = preset_effects(Preset((i + 2) % u32(Preset::count)));
         for (const EffectOption& option : effect_options()) {
-            const std::string text = effect_text(from, option);
+            const std::string text = option_text(option, from);
             const Result<> set = set_effect(to, option.key, text);
             ASSERT_TRUE(set) << option.key << " " << set.error().message;
-            EXPECT_EQ(effect_text(to, option), text);
+            EXPECT_EQ(option_text(option, to), text);
         }
         EXPECT_TRUE(to == from) << preset_name(Preset(i));
     }
@@ -54,12 +54,12 @@ TEST(Effects, TextSurvivesARoundTrip) {
     ASSERT_TRUE(set_effect(effects, "bloom.strength", "0.123456789"));
     EXPECT_EQ(effects.bloom.strength, 0.123456789f);
     Effects copy;
-    ASSERT_TRUE(set_effect(copy, "bloom.strength", effect_text(effects, *find_effect("bloom.strength"))));
+    ASSERT_TRUE(set_effect(copy, "bloom.strength", option_text(*find_effect("bloom.strength"), effects)));
     EXPECT_EQ(copy.bloom.strength, effects.bloom.strength);
     for (const EffectOption& option : effect_options())
         for (const char* choice : option.choices) {
             ASSERT_TRUE(set_effect(effects, option.key, choice));
-            EXPECT_EQ(effect_text(effects, option), choice);
+            EXPECT_EQ(option_text(option, effects), choice);
         }
 }
 
@@ -109,12 +109,12 @@ TEST(Effects, SaneHoldsEveryNumber) {
     for (const EffectOption& option : effect_options())
         for (float value : odd) {
             Effects effects = preset_effects(Preset::ultra);
-            const EffectOption::Member member = option.member(effects);
+            const OptionMember member = option.member(effects);
             if (i32* const* i = std::get_if<i32*>(&member))
                 **i = value > 0 ? std::numeric_limits<i32>::max() : std::numeric_limits<i32>::min();
             if (float* const* f = std::get_if<float*>(&member)) **f = value;
             Effects held = sane(effects);
-            const EffectOption::Member after = option.member(held);
+            const OptionMember after = option.member(held);
             if (i32* const* i = std::get_if<i32*>(&after)) {
                 EXPECT_GE(float(**i), option.least) << option.key;
                 EXPECT_LE(float(**i), option.most) << option.key;
