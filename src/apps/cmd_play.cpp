@@ -52,11 +52,8 @@ Result<> run_play(const PlayOptions& options) {
     VX_TRY(effects_of(options.effects, {})); // wrong words are told before a window opens
     game.change_effects = [arguments = options.effects](const render::Effects& kept) { return *effects_of(arguments, kept); };
     game.trace = options.renderer == "trace";
-    game.trace_device = options.device;
-    if (game.trace) { // F5 says in the game what it cannot do; here it is told before a window opens
-        VX_TRY_ASSIGN(const trace::Device device, client::trace_device_named(options.device));
-        VX_TRY(trace::Tracer::create({.device = device}));
-    }
+    VX_TRY_ASSIGN(game.trace_device, client::trace_device_named(options.device));
+    if (game.trace) VX_TRY(trace::Tracer::possible_on(game.trace_device)); // F5 says so in the game; here it is told before a window opens
     VX_TRY(trace_options_of(options.trace, {}));
     game.change_trace = [changes = options.trace](const client::TraceOptions& kept) { return *trace_options_of(changes, kept); };
     game.screenshot_folder = data_folder() / "screenshots";

@@ -33,7 +33,7 @@ struct GameOptions {
     std::vector<std::string> packs;          // resource packs; none: as the settings say
     std::string shader_folder;               // see render::RendererOptions
     bool trace = false;                      // begins with the path tracer
-    std::string trace_device = "auto";       // cpu, cuda or auto
+    trace::Device trace_device = trace::Device::best;
     std::function<TraceOptions(const TraceOptions&)> change_trace; // as change_effects
     // What the command line makes of the effects kept; null: nothing.
     std::function<render::Effects(const render::Effects&)> change_effects;

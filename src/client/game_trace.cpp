@@ -13,9 +13,8 @@ double trace_budget_ms(double frame_seconds) {
 }
 
 static Result<> open_tracer(GameState& state) {
-    VX_TRY_ASSIGN(const trace::Device device, trace_device_named(state.options.trace_device));
-    VX_TRY_ASSIGN(state.traced, TracedView::open({device, *state.pool, *state.feeder, state.game->replica(),
-                                                  state.registry, state.pack_looks}));
+    VX_TRY_ASSIGN(state.traced, TracedView::open({state.options.trace_device, *state.pool, *state.feeder,
+                                                  state.game->replica(), state.registry, state.pack_looks}));
     return {};
 }
 

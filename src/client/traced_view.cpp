@@ -27,7 +27,7 @@ Result<trace::Device> trace_device_named(const std::string& name) {
     if (name == "cuda") return trace::Device::cuda;
     if (name != "auto")
         return fail(ErrorCode::invalid_argument, fmt::format("--device is cpu, cuda or auto, not '{}'", name));
-    return trace::Tracer::create({.device = trace::Device::cuda}) ? trace::Device::cuda : trace::Device::cpu;
+    return trace::Device::best;
 }
 
 // Filled by a worker, which may come back after the view went.
@@ -82,7 +82,7 @@ Result<> TracedView::feed(BlockPos eye, double budget_ms) {
 
 float TracedView::choose_share(const TraceOptions& options, const render::Effects& effects, float last_frame_ms) {
     const float most = std::min(options.scale, effects.resolution.scale), least = std::min(kLeastShare, most);
-    const float wanted_ms = 1000.0f / frame_rate_of(options, parts_.device);
+    const float wanted_ms = 1000.0f / frame_rate_of(options, device());
     if (resting_frames_ < kFramesOfRest) {
         rest_share_.reset();
     } else if (rest_share_) {
@@ -95,7 +95,7 @@ float TracedView::choose_share(const TraceOptions& options, const render::Effect
     // Far from what is wanted there is no time for judging many frames: the time that a pixel took tells the size. On
     // the CPU the first picture is a small one, to learn that.
     if (traced_ms_ <= 0) {
-        if (parts_.device == trace::Device::cpu && !most_now_) most_now_ = least;
+        if (device() == trace::Device::cpu && !most_now_) most_now_ = least;
     } else if (traced_ms_ > kFarOff * wanted_ms || (traced_ms_ * kFarOff < wanted_ms && share_ < most)) {
         const float fits = share_ * std::sqrt(kTracedPart * wanted_ms / traced_ms_);
         most_now_ = std::round(fits * kShareSteps) / kShareSteps;

@@ -18,7 +18,7 @@
 
 namespace vitrail::client {
 
-// Which device is meant by "cpu", "cuda" or "auto" (a GPU where there is one). Errors: invalid_argument.
+// Which device is meant by "cpu", "cuda" or "auto". Errors: invalid_argument.
 Result<trace::Device> trace_device_named(const std::string& name);
 
 class TracedView {
@@ -49,7 +49,7 @@ public:
                   float last_frame_ms, render::Renderer& renderer);
     void hide(render::Renderer& renderer);
 
-    trace::Device device() const { return parts_.device; }
+    trace::Device device() const { return tracer_->device(); } // cpu or cuda
     const trace::TracerStats& stats() const { return tracer_->stats(); }
     float share() const { return share_; } // of width and height that was traced
     std::size_t waiting() const { return feeder_->waiting(); }

@@ -28,7 +28,7 @@ struct TintGrid;
 
 namespace vitrail::trace {
 
-enum class Device : u8 { cpu, cuda };
+enum class Device : u8 { cpu, cuda, best }; // best: CUDA where it works, else the CPU
 
 struct TracerOptions {
     Device device = Device::cpu;
@@ -64,8 +64,10 @@ struct TracerStats {
 
 class Tracer {
 public:
-    // Errors: unsupported (no CUDA device, or built without), invalid_argument.
+    // Errors: unsupported (no CUDA device, one too old, or built without), limit (its memory), invalid_argument.
     static Result<std::unique_ptr<Tracer>> create(const TracerOptions& options);
+    // Why create could not make one on this device, asked without making any. Errors: unsupported.
+    static Result<> possible_on(Device device);
     virtual ~Tracer() = default;
 
     // States known now, and their pictures (null: those of the last call). Errors: limit (device memory).
@@ -83,6 +85,7 @@ public:
     virtual Result<> write_texture(u32 texture) = 0;
     virtual void forget_frames() = 0; // next frame stands for itself
     virtual const TracerStats& stats() const = 0;
+    virtual Device device() const = 0; // cpu or cuda
 };
 
 } // namespace vitrail::trace

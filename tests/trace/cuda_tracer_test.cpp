@@ -125,10 +125,23 @@ TEST(CudaTracer, SeveralDevicesMakeOnePicture) {
         expect_alike(look(*many, 3, s), look(*one, 3, s), 1e-4);
 }
 
+TEST(CudaTracer, TheBestDeviceIsOneThatWorks) {
+    const auto best = Tracer::create({.device = Device::best, .window_chunks = 8});
+    ASSERT_TRUE(best) << best.error().message;
+    EXPECT_EQ((*best)->device(), Tracer::possible_on(Device::cuda) ? Device::cuda : Device::cpu);
+    EXPECT_FALSE(Tracer::create({.device = Device::best, .window_chunks = 7})); // no device makes that right
+    EXPECT_EQ((*Tracer::create({.device = Device::cpu, .window_chunks = 8}))->device(), Device::cpu);
+}
+
 TEST(CudaTracer, SaysWhyNot) {
     EXPECT_FALSE(cuda_tracer_summary().empty());
     const auto tracer = Tracer::create({.device = Device::cuda});
+    const auto possible = Tracer::possible_on(Device::cuda);
+    EXPECT_EQ(bool(possible), bool(tracer));
+    EXPECT_TRUE(Tracer::possible_on(Device::cpu) && Tracer::possible_on(Device::best));
     if (tracer) GTEST_SKIP() << "there is a device";
+    EXPECT_EQ(possible.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(possible.error().message, tracer.error().message);
     EXPECT_EQ(tracer.error().code, ErrorCode::unsupported);
     EXPECT_FALSE(tracer.error().message.empty());
 }

@@ -21,6 +21,7 @@ public:
     Result<> write_texture(u32 texture) override;
     void forget_frames() override;
     const TracerStats& stats() const override { return stats_; }
+    Device device() const override { return Device::cpu; }
 
 private:
     ThreadPool* pool_;

@@ -29,6 +29,16 @@ Result<int> count_devices() {
     return count;
 }
 
+// Of the current device.
+Result<> check_kernels() {
+    const auto e = cudaError_t(load_kernels());
+    if (e == cudaSuccess) return {};
+    (void)cudaGetLastError();
+    return fail(ErrorCode::unsupported, fmt::format("path tracing on CUDA is not possible here: this build has nothing "
+                                                    "that runs on the device ({})",
+                                                    cudaGetErrorString(e)));
+}
+
 class CudaTracer final : public Tracer {
 public:
     explicit CudaTracer(const TracerOptions& options)
@@ -49,6 +59,7 @@ public:
         means_.resize(devices);
         for (u32 i = 0; i < devices; ++i) {
             VX_TRY(gpus_[i].open(int(i)));
+            VX_TRY(check_kernels());
             for (cudaEvent_t* event : {&events_[i].begin, &events_[i].end, &events_[i].filtered})
                 VX_TRY(check(cudaEventCreate(event), "an event"));
             VX_TRY(counts_[i].make(gpus_[i], sizeof(PathCounts)));
@@ -100,6 +111,7 @@ public:
         return {};
     }
     const TracerStats& stats() const override { return stats_; }
+    Device device() const override { return Device::cuda; }
 
 private:
     struct Events {
@@ -265,6 +277,12 @@ Result<std::unique_ptr<Tracer>> make_cuda_tracer(const TracerOptions& options) {
     return std::unique_ptr<Tracer>(std::move(tracer));
 }
 
+Result<> cuda_possible() {
+    VX_TRY(count_devices());
+    VX_TRY(check(cudaSetDevice(0), "choosing the device"));
+    return check_kernels();
+}
+
 std::string cuda_tracer_summary() {
     const auto count = count_devices();
     return count ? fmt::format("processor; CUDA, on up to {} device{}", *count, *count == 1 ? "" : "s")
@@ -277,8 +295,14 @@ std::string cuda_tracer_summary() {
 
 namespace vitrail::trace {
 
+static constexpr const char* kNotBuilt = "path tracing on CUDA is not possible here: this build has no CUDA";
+
 Result<std::unique_ptr<Tracer>> make_cuda_tracer(const TracerOptions&) {
-    return fail(ErrorCode::unsupported, "path tracing on CUDA is not possible here: this build has no CUDA");
+    return fail(ErrorCode::unsupported, kNotBuilt);
+}
+
+Result<> cuda_possible() {
+    return fail(ErrorCode::unsupported, kNotBuilt);
 }
 
 std::string cuda_tracer_summary() {

@@ -75,6 +75,11 @@ __global__ void fill_kernel(float* to, u64 count, float value) {
 
 } // namespace
 
+int load_kernels() {
+    cudaFuncAttributes attributes{};
+    return cudaFuncGetAttributes(&attributes, read_kernel);
+}
+
 void launch_film(const FilmPlanes& film, const FilmFrame& frame, const FilmPass& pass, cudaStream_t stream) {
     const u32 width = film_columns(pass.stage, film), height = film_rows(pass.stage, film);
     const dim3 grid((width + kWide - 1) / kWide, (height + kHigh - 1) / kHigh);

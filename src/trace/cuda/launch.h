@@ -12,6 +12,9 @@ struct CUstream_st; // cudaStream_t points to it
 
 namespace vitrail::trace::cuda {
 
+// Loads the film's kernels onto the current device: 0, or the cudaError_t that says why they do not run there.
+int load_kernels();
+
 // Words from one place of staging memory to where they belong.
 struct Piece {
     u32* to = nullptr;
