@@ -72,7 +72,7 @@ public:
                 if (cudaDeviceEnablePeerAccess(int(i), 0) != cudaSuccess) (void)cudaGetLastError(); // copies are slower
             }
         }
-        VX_TRY(host_counts_.reach(sizeof(PathCounts) * (devices + 1)));
+        VX_TRY(host_counts_.reach({}, sizeof(PathCounts) * (devices + 1)));
         mirror_ = std::make_unique<SceneMirror>(gpus_);
         film_ = std::make_unique<DeviceFilm>(gpus_[0]);
         gl_ = std::make_unique<GlShare>(gpus_[0]);
@@ -184,7 +184,7 @@ Result<> CudaTracer::trace_bands(std::size_t gpu, PathJob job, const TraceSettin
     if (gpu > 0) {
         const u64 bytes =
             u64(rows_of_bands(job.film.height, job.band, job.bands)) * job.film.width * sizeof(SampleMean);
-        if (means_[gpu].own.size() < bytes) VX_TRY(means_[gpu].own.make(g, bytes));
+        VX_TRY(means_[gpu].own.reach(g, bytes));
         job.means = means_[gpu].own.as<SampleMean>();
     }
     if (!job.frame.half) {
@@ -214,7 +214,7 @@ Result<> CudaTracer::gather(std::size_t gpu) {
     job.band = u32(gpu), job.bands = u32(gpus_.size());
     const u64 bytes = u64(rows_of_bands(job.film.height, job.band, job.bands)) * job.film.width * sizeof(SampleMean);
     if (bytes == 0) return {};
-    if (means_[gpu].gathered.size() < bytes) VX_TRY(means_[gpu].gathered.make(first, bytes));
+    VX_TRY(means_[gpu].gathered.reach(first, bytes));
     VX_TRY(first.use());
     VX_TRY(check(cudaStreamWaitEvent(first.stream, events_[gpu].end, 0), "waiting for a device"));
     VX_TRY(check(cudaMemcpyPeerAsync(means_[gpu].gathered.as(), first.id, means_[gpu].own.as(), gpus_[gpu].id, bytes,

@@ -35,7 +35,7 @@ Result<std::vector<float>> DeviceFilm::read(FilmLayer layer) {
     std::vector<float> out(u64(planes_.width) * planes_.height * channels_of(layer));
     if (out.empty()) return out;
     const u64 bytes = out.size() * sizeof(float);
-    if (layer_.size() < bytes) VX_TRY(layer_.make(gpu_, bytes));
+    VX_TRY(layer_.reach(gpu_, bytes));
     VX_TRY(gpu_.use());
     launch_read(planes_, frame_, layer, layer_.as<float>(), gpu_.stream);
     VX_TRY(check(cudaGetLastError(), "reading the film"));

@@ -66,7 +66,7 @@ Result<> GlShare::write(u32 texture, const void* pixels, u32 width, u32 height) 
         glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
         return {};
     }
-    VX_TRY(host_.reach(bytes));
+    VX_TRY(host_.reach({}, bytes));
     VX_TRY(check(cudaMemcpyAsync(host_.as(), pixels, bytes, cudaMemcpyDeviceToHost, gpu_.stream), "showing"));
     VX_TRY(gpu_.wait());
     glTextureSubImage2D(texture, 0, 0, 0, GLsizei(width), GLsizei(height), GL_RGBA, GL_FLOAT, host_.as());

@@ -45,61 +45,30 @@ struct Gpu {
     }
 };
 
-// Bytes on one device. Freeing waits for what runs there.
-class DeviceBytes {
+// Bytes that a kind of memory lent. Memory: take sets the address or says why not; give takes it back.
+template <class Memory>
+class OwnedBytes {
 public:
-    DeviceBytes() = default;
-    DeviceBytes(DeviceBytes&& o) noexcept
-        : at_(std::exchange(o.at_, nullptr))
-        , size_(std::exchange(o.size_, 0))
-        , device_(o.device_) {}
-    DeviceBytes& operator=(DeviceBytes&& o) noexcept {
-        std::swap(at_, o.at_), std::swap(size_, o.size_), std::swap(device_, o.device_);
+    OwnedBytes() = default;
+    OwnedBytes(OwnedBytes&& o) noexcept { swap(o); }
+    OwnedBytes& operator=(OwnedBytes&& o) noexcept {
+        swap(o);
         return *this;
     }
-    ~DeviceBytes() {
-        if (!at_) return;
-        cudaSetDevice(device_);
-        cudaFree(at_);
+    ~OwnedBytes() {
+        if (at_) memory_.give(at_);
     }
-    // What it held is lost. size 0: nothing is held.
-    Result<> make(const Gpu& gpu, u64 size) {
-        *this = DeviceBytes();
+    // What it held is lost. size 0: nothing is held. Errors: limit.
+    Result<> make(Memory memory, u64 size) {
+        *this = OwnedBytes(); // gives back first: both may not fit
         if (size == 0) return {};
-        VX_TRY(gpu.use());
-        VX_TRY(check(cudaMalloc(&at_, size), "memory of the device"));
+        VX_TRY(memory.take(at_, size));
+        memory_ = memory;
         size_ = size;
-        device_ = gpu.id;
         return {};
     }
-    template <class T = void>
-    T* as() const {
-        return static_cast<T*>(at_);
-    }
-    u64 size() const { return size_; }
-
-private:
-    void* at_ = nullptr;
-    u64 size_ = 0;
-    int device_ = 0;
-};
-
-// Memory of the host that devices copy from and to without a detour.
-class PinnedBytes {
-public:
-    PinnedBytes() = default;
-    PinnedBytes(const PinnedBytes&) = delete;
-    PinnedBytes& operator=(const PinnedBytes&) = delete;
-    ~PinnedBytes() { cudaFreeHost(at_); }
     // At least so many; what it held is lost where it grows.
-    Result<> reach(u64 size) {
-        if (size <= size_) return {};
-        cudaFreeHost(at_);
-        at_ = nullptr, size_ = 0;
-        VX_TRY(check(cudaHostAlloc(&at_, size, cudaHostAllocPortable), "pinned memory"));
-        size_ = size;
-        return {};
-    }
+    Result<> reach(Memory memory, u64 size) { return size <= size_ ? Result<>() : make(memory, size); }
     template <class T = void>
     T* as() const {
         return static_cast<T*>(at_);
@@ -107,8 +76,40 @@ public:
     u64 size() const { return size_; }
 
 private:
+    void swap(OwnedBytes& o) noexcept {
+        std::swap(at_, o.at_), std::swap(size_, o.size_), std::swap(memory_, o.memory_);
+    }
     void* at_ = nullptr;
     u64 size_ = 0;
+    Memory memory_;
 };
+
+// Of one device. Giving it back waits for what runs there.
+struct DeviceMemory {
+    int device = 0;
+
+    DeviceMemory() = default;
+    DeviceMemory(const Gpu& gpu)
+        : device(gpu.id) {}
+    Result<> take(void*& at, u64 size) const {
+        VX_TRY(check(cudaSetDevice(device), "choosing the device"));
+        return check(cudaMalloc(&at, size), "memory of the device");
+    }
+    void give(void* at) const {
+        cudaSetDevice(device);
+        cudaFree(at);
+    }
+};
+
+// Of the host, that devices copy from and to without a detour.
+struct PinnedMemory {
+    Result<> take(void*& at, u64 size) const {
+        return check(cudaHostAlloc(&at, size, cudaHostAllocPortable), "pinned memory");
+    }
+    void give(void* at) const { cudaFreeHost(at); }
+};
+
+using DeviceBytes = OwnedBytes<DeviceMemory>;
+using PinnedBytes = OwnedBytes<PinnedMemory>;
 
 } // namespace vitrail::trace::cuda

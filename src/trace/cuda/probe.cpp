@@ -108,7 +108,7 @@ public:
         return film_.frame().now;
     }
     Result<> put(std::span<const SampleMean> means) override {
-        if (means_.size() < means.size_bytes()) VX_TRY(means_.make(gpu_, means.size_bytes()));
+        VX_TRY(means_.reach(gpu_, means.size_bytes()));
         VX_TRY(
             check(cudaMemcpyAsync(means_.as(), means.data(), means.size_bytes(), cudaMemcpyHostToDevice, gpu_.stream),
                   "copying samples"));

@@ -13,8 +13,8 @@ Upload::~Upload() {
 }
 
 Result<> Upload::open() {
-    VX_TRY(pinned_.reach(u64(kWords) * 4));
-    VX_TRY(pinned_pieces_.reach(u64(kPieces) * sizeof(Piece) * gpus_.size()));
+    VX_TRY(pinned_.reach({}, u64(kWords) * 4));
+    VX_TRY(pinned_pieces_.reach({}, u64(kPieces) * sizeof(Piece) * gpus_.size()));
     staging_.resize(gpus_.size());
     device_pieces_.resize(gpus_.size());
     for (std::size_t i = 0; i < gpus_.size(); ++i) {
