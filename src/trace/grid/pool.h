@@ -1,17 +1,16 @@
-// Memory for pieces of few different sizes, in one array that a device mirrors: each size keeps a list of free places.
+// Memory for pieces of few different sizes, in one array that a device mirrors.
 #pragma once
 
-#include "base/types.h"
+#include "trace/places.h"
 
 #include <cstring>
-#include <map>
 #include <span>
 #include <vector>
 
 namespace vitrail::trace {
 
 // Byte ranges that changed since they were last asked for, so that a mirror copies just those. Ranges that are close
-// become one.
+// become one. For pieces written whole, near each other; TrackedArray is for single entries all over an array.
 class DirtyRanges {
 public:
     struct Range {
@@ -53,21 +52,11 @@ class Pool {
 public:
     // First element of a piece of `size` elements; what it holds is undefined.
     u32 take(u32 size) {
-        used_ += size;
-        auto& free = free_[size];
-        if (!free.empty()) {
-            const u32 at = free.back();
-            free.pop_back();
-            return at;
-        }
-        const u32 at = u32(data_.size());
-        data_.resize(data_.size() + size);
+        const u32 at = places_.take(size);
+        if (data_.size() < places_.end()) data_.resize(places_.end());
         return at;
     }
-    void give(u32 at, u32 size) {
-        used_ -= size;
-        free_[size].push_back(at);
-    }
+    void give(u32 at, u32 size) { places_.give(at, size); }
     // Writes what differs and notes it.
     void write(u32 at, std::span<const T> values) {
         std::size_t first = 0, last = values.size();
@@ -87,10 +76,10 @@ public:
     const T* data() const { return data_.data(); }
     const T& operator[](std::size_t i) const { return data_[i]; }
     u64 size() const { return data_.size(); } // elements, free ones too
-    u64 used() const { return used_; }
+    u64 used() const { return places_.used(); }
     u64 bytes() const { return data_.capacity() * sizeof(T); }
     void clear() {
-        data_.clear(), free_.clear(), used_ = 0;
+        data_.clear(), places_.clear();
         dirty.clear();
     }
 
@@ -98,8 +87,7 @@ public:
 
 private:
     std::vector<T> data_;
-    std::map<u32, std::vector<u32>> free_; // by size
-    u64 used_ = 0;
+    Places places_;
 };
 
 } // namespace vitrail::trace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <tuple>
 
 namespace vitrail::trace {
@@ -35,8 +36,8 @@ void LightStore::clear() {
     emitters_.resize(0);
     nodes_.resize(0);
     table_.resize(0);
-    emitter_pool_.clear();
-    node_pool_.clear();
+    emitter_places_.clear();
+    node_places_.clear();
     top_ = {};
     count_ = table_bits_ = 0;
     has_origin_ = false;
@@ -139,7 +140,7 @@ LightNode LightStore::leaf_of(const Emitter& e) const {
 }
 
 void LightStore::release(Tree& tree) {
-    if (tree.first != kNone) node_pool_.give(tree.first, tree.count);
+    if (tree.first != kNone) node_places_.give(tree.first, std::bit_ceil(tree.count));
     tree = {};
 }
 
@@ -161,8 +162,8 @@ LightNode LightStore::plant(Tree& tree, const std::vector<LightNode>& items) {
     tree.root = built.root;
     if (built.nodes.empty()) return tree.root;
     tree.count = u32(built.nodes.size());
-    tree.first = node_pool_.take(tree.count);
-    if (nodes_.size() < node_pool_.end()) nodes_.resize(node_pool_.end());
+    tree.first = node_places_.take(std::bit_ceil(tree.count));
+    if (nodes_.size() < node_places_.end()) nodes_.resize(node_places_.end());
     tree.root.first += tree.first;
     for (u32 i = 0; i < tree.count; ++i) {
         LightNode n = built.nodes[i];
@@ -183,7 +184,7 @@ void LightStore::drop_chunk(ChunkPos at) {
         table_erase(c.first + i);
         emitters_.edit(c.first + i) = {};
     }
-    if (c.first != kNone) emitter_pool_.give(c.first, c.count);
+    if (c.first != kNone) emitter_places_.give(c.first, std::bit_ceil(c.count));
     count_ -= c.count;
     c.first = kNone;
     c.count = 0;
@@ -270,8 +271,8 @@ void LightStore::relist(ChunkPos at, const GridView& grid) {
     if (found.empty()) return;
     c.from = from_;
     c.count = u32(found.size());
-    c.first = emitter_pool_.take(c.count);
-    if (emitters_.size() < emitter_pool_.end()) emitters_.resize(emitter_pool_.end());
+    c.first = emitter_places_.take(std::bit_ceil(c.count));
+    if (emitters_.size() < emitter_places_.end()) emitters_.resize(emitter_places_.end());
     count_ += c.count;
     table_reserve(count_);
     std::vector<LightNode> leaves(c.count);

@@ -15,6 +15,7 @@
 #include "trace/kernel/scene_view.h"
 #include "trace/lights/state_lights.h"
 #include "trace/lights/tracked_array.h"
+#include "trace/places.h"
 #include "voxel/chunk.h"
 
 #include <span>
@@ -90,7 +91,7 @@ private:
     TrackedArray<Emitter> emitters_;
     TrackedArray<LightNode> nodes_;
     TrackedArray<u32> table_;
-    BlockPool emitter_pool_, node_pool_{1}; // node 0: the root
+    Places emitter_places_, node_places_{1}; // lent by powers of two; node 0: the root
     Tree top_;
     u32 count_ = 0, table_bits_ = 0;
     IVec3 from_, window_first_;

@@ -54,38 +54,4 @@ private:
     std::vector<u8> touched_;
 };
 
-// Blocks of entries in an array: sizes are rounded up to powers of two, freed ones are used again.
-class BlockPool {
-public:
-    explicit BlockPool(u32 first = 0)
-        : end_(first)
-        , first_(first) {}
-    static u32 rounded(u32 count) {
-        u32 size = 1;
-        while (size < count)
-            size *= 2;
-        return size;
-    }
-    // count > 0. The array must reach end() afterwards.
-    u32 take(u32 count) {
-        const u32 size = rounded(count);
-        std::vector<u32>& free = free_[log2(size)];
-        if (free.empty()) {
-            end_ += size;
-            return end_ - size;
-        }
-        const u32 at = free.back();
-        free.pop_back();
-        return at;
-    }
-    void give(u32 at, u32 count) { free_[log2(rounded(count))].push_back(at); }
-    u32 end() const { return end_; }
-    void clear() { *this = BlockPool(first_); }
-
-private:
-    static u32 log2(u32 size) { return u32(__builtin_ctz(size)); }
-    u32 end_, first_;
-    std::vector<u32> free_[32];
-};
-
 } // namespace vitrail::trace
