@@ -11,39 +11,29 @@ using namespace vitrail::trace::film_scene;
 
 namespace {
 
-constexpr u32 kW = 128, kH = 72;
-constexpr Vec3 kEye{0.3f, 2.2f, 2.7f};
-
 double psnr(const Picture& a, const Picture& b) {
     return -20 * std::log10(rmse(a, b));
 }
 
-Picture run(Film& film, const Scene& s, const Camera& c, const FilmSettings& settings, u32 frames, u64 seed) {
-    Picture p;
-    for (u32 n = 0; n < frames; ++n)
-        p = frame(film, s, c, settings, false, seed + n);
-    return p;
-}
-
 TEST(FilmDenoise, NoiseGoesFromTheFirstFrameOn) {
     const Scene s;
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     const Picture right = truth(s, c);
     const double noise = rmse(noisy(s, c, 1), right);
     Film film;
-    const Picture first = run(film, s, c, {}, 1, 100);
+    const Picture first = frames(film, s, c, {}, 1, 100);
     EXPECT_LT(rmse(first, right), noise / 2.5);
-    const Picture later = run(film, s, c, {}, 31, 101);
+    const Picture later = frames(film, s, c, {}, 31, 101);
     EXPECT_LT(rmse(later, right), noise / 8);
     EXPECT_LT(rmse(later, right), rmse(first, right) / 2);
     // As many samples without the filter are worse.
     Film plain;
-    EXPECT_LT(rmse(later, right), 0.7 * rmse(run(plain, s, c, {.denoise = false}, 32, 100), right));
+    EXPECT_LT(rmse(later, right), 0.7 * rmse(frames(plain, s, c, {.denoise = false}, 32, 100), right));
     show("first", first, kW), show("later", later, kW), show("right", right, kW);
 }
 
 TEST(FilmDenoise, EdgesStaySharp) {
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     const Scene noise;
     Scene clean;
     clean.noise = false;
@@ -66,7 +56,7 @@ TEST(FilmDenoise, EdgesStaySharp) {
         }
     const double blur = rmse(blurred, right, at_edge);
     Film a, b;
-    const Picture sharp = run(a, clean, c, {}, 30, 100), filtered = run(b, noise, c, {}, 60, 100);
+    const Picture sharp = frames(a, clean, c, {}, 30, 100), filtered = frames(b, noise, c, {}, 60, 100);
     EXPECT_LT(rmse(sharp, right, at_edge), 0.5 * blur);
     EXPECT_LT(rmse(filtered, right, at_edge), 0.75 * blur);
 }
@@ -79,7 +69,7 @@ TEST(FilmDenoise, EnergyStays) {
         for (u32 part = 0; part < 3; ++part) {
             Film film;
             for (u32 n = 0; n < 14; ++n) {
-                const Camera c = camera(kW, kH, kEye + Vec3{0.05f * float(n + 9 * part), 0, 0});
+                const Camera c = usual_camera({0.05f * float(n + 9 * part), 0, 0});
                 const Picture p = frame(film, s, c, {.half = half}, false, 1000 * part + n);
                 if (n % 3) continue;
                 got += mean(p);
@@ -93,7 +83,7 @@ TEST(FilmDenoise, EnergyStays) {
 TEST(FilmDenoise, SpikesAreSpreadNotCut) {
     Film film;
     Scene s;
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     frame(film, s, c, {.spread_spikes = 4}, false, 5);
     const FilmPlanes& p = film.planes();
     double before = 0, after = 0, most_before = 0, most_after = 0;
@@ -110,9 +100,9 @@ TEST(FilmDenoise, SpikesAreSpreadNotCut) {
 
 TEST(FilmDenoise, RestIsCalm) {
     const Scene s;
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     Film film;
-    run(film, s, c, {}, 30, 1);
+    frames(film, s, c, {}, 30, 1);
     const std::size_t pixels = kW * kH;
     std::vector<double> sum(pixels), squares(pixels);
     constexpr u32 kFrames = 16;
@@ -138,9 +128,9 @@ void rest_tends_to_the_mean(u32 w, u32 h, bool half) {
     const Picture right = truth(s, c, w < 20 ? 48 : 16);
     Film film;
     const u32 few = half ? 256 : 64, many = half ? 4 * 4'200 : 4'200;
-    run(film, s, c, {.half = half}, few, 1);
+    frames(film, s, c, {.half = half}, few, 1);
     EXPECT_EQ(film.state().to_mean, 0);
-    const Picture p = run(film, s, c, {.half = half}, many - few, 10'000);
+    const Picture p = frames(film, s, c, {.half = half}, many - few, 10'000);
     EXPECT_EQ(film.state().to_mean, 1);
     // 1 / sqrt(4,200) of a sample's noise.
     const double expected = rmse(noisy(s, c, 3), right) / std::sqrt(4'200);
@@ -159,11 +149,11 @@ TEST(FilmDenoise, RestTendsToTheMeanLong) {
 TEST(FilmDenoise, MistIsSmoothAndKeepsItsEdges) {
     Scene s;
     s.mist = 0.05f;
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     const Picture right = truth(s, c);
     const double noise = rmse(noisy(s, c, 1), right);
     Film film;
-    const Picture p = run(film, s, c, {}, 16, 3);
+    const Picture p = frames(film, s, c, {}, 16, 3);
     EXPECT_LT(rmse(p, right), noise / 6);
     EXPECT_NEAR(mean(p) / mean(right), 1, 0.01);
     show("mist", p, kW), show("mist_right", right, kW);
@@ -175,7 +165,7 @@ TEST(FilmDenoise, AQuarterOfTheSamplesGivesTheWholePicture) {
     double full_db = 0, half_db = 0, noisy_db = 0;
     Picture p, right;
     for (u32 n = 0; n < 24; ++n) {
-        const Camera c = camera(kW, kH, kEye + Vec3{0.04f * float(n), 0, 0});
+        const Camera c = usual_camera({0.04f * float(n), 0, 0});
         const Picture a = frame(whole, s, c, {}, false, n);
         p = frame(half, s, c, {.half = true}, false, n);
         if (n < 16) continue;
@@ -188,8 +178,8 @@ TEST(FilmDenoise, AQuarterOfTheSamplesGivesTheWholePicture) {
     show("half", p, kW), show("half_right", right, kW);
     // At rest more.
     Film rest;
-    const Camera c = camera(kW, kH, kEye);
-    EXPECT_GT(psnr(run(rest, s, c, {.half = true}, 40, 1), truth(s, c)), 27.5);
+    const Camera c = usual_camera();
+    EXPECT_GT(psnr(frames(rest, s, c, {.half = true}, 40, 1), truth(s, c)), 27.5);
     // Only a quarter was read.
     EXPECT_EQ(std::count(rest.planes().light.r, rest.planes().light.r + kW, kMissing),
               rest.state().half_y ? kW : kW / 2);

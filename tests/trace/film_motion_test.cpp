@@ -11,20 +11,17 @@ using namespace vitrail::trace::film_scene;
 
 namespace {
 
-constexpr u32 kW = 128, kH = 72;
-constexpr Vec3 kEye{0.3f, 2.2f, 2.7f};
-
 enum class Way { walk, pan, zoom, forward };
 Camera on_way(Way way, float t) {
     switch (way) {
     case Way::walk:
-        return camera(kW, kH, kEye + Vec3{0.12f * t, 0, 0});
+        return usual_camera({0.12f * t, 0, 0});
     case Way::pan:
         return camera(kW, kH, kEye, 0.02f * t);
     case Way::zoom:
         return camera(kW, kH, kEye, 0, -0.12f, 0.7f - 0.012f * t);
     default:
-        return camera(kW, kH, kEye + Vec3{0, 0, -0.12f * t});
+        return usual_camera({0, 0, -0.12f * t});
     }
 }
 
@@ -104,23 +101,17 @@ TEST(FilmChange, LampsSettleWithinHalfASecond) {
     off.rare = 0.002f;
     Scene on = off;
     on.lamp = true;
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     const Picture dark = truth(off, c, 3), bright = truth(on, c, 3);
     for (const bool half : {false, true}) {
         Film film;
-        for (u32 n = 0; n < 20; ++n)
-            frame(film, off, c, {.half = half}, false, n + 1);
-        Picture p;
-        for (u32 n = 0; n < 15; ++n) // 0.5 s at 30 frames a second
-            p = frame(film, on, c, {.half = half}, n == 0, n + 100);
+        frames(film, off, c, {.half = half}, 20, 1);
+        Picture p = frames(film, on, c, {.half = half}, 15, 100, true); // 0.5 s at 30 frames a second
         EXPECT_GT(progress(p, dark, bright), 0.85) << half;
         show(half ? "lamp_on_half" : "lamp_on", p, kW);
-        for (u32 n = 0; n < 20; ++n)
-            frame(film, on, c, {.half = half}, false, n + 200);
-        for (u32 n = 0; n < 12; ++n) {
-            p = frame(film, off, c, {.half = half}, n == 0, n + 300);
-            if (n == 3) show(half ? "lamp_going_half" : "lamp_going", p, kW);
-        }
+        frames(film, on, c, {.half = half}, 20, 200);
+        show(half ? "lamp_going_half" : "lamp_going", frames(film, off, c, {.half = half}, 4, 300, true), kW);
+        p = frames(film, off, c, {.half = half}, 8, 304);
         EXPECT_GT(progress(p, bright, dark), 0.9) << half;
         show(half ? "lamp_off_half" : "lamp_off", p, kW);
     }
@@ -133,11 +124,8 @@ TEST(FilmChange, ARemovedWallTakesItsShadowAlong) {
     const Camera c = camera(192, 108, kEye);
     const Picture before = truth(with, c, 3), after = truth(without, c, 3);
     Film film;
-    for (u32 n = 0; n < 24; ++n)
-        frame(film, with, c, {}, false, n + 1);
-    Picture p;
-    for (u32 n = 0; n < 12; ++n)
-        p = frame(film, without, c, {}, n == 0, n + 100);
+    frames(film, with, c, {}, 24, 1);
+    const Picture p = frames(film, without, c, {}, 12, 100, true);
     EXPECT_GT(progress(p, before, after), 0.88);
     EXPECT_LT(rmse(p, after), 0.25 * rmse(before, after));
     show("wall_gone", p, 192);
@@ -145,7 +133,7 @@ TEST(FilmChange, ARemovedWallTakesItsShadowAlong) {
 
 TEST(FilmChange, TheSunTurnsWithItsShadows) {
     Scene day;
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     Film film;
     Picture p;
     for (u32 n = 0; n < 40; ++n) {
@@ -162,7 +150,7 @@ TEST(FilmChange, TheSunTurnsWithItsShadows) {
 TEST(FilmChange, NoiseIsNoChange) {
     Scene s;
     s.rare = 0.006f;
-    const Camera c = camera(kW, kH, kEye);
+    const Camera c = usual_camera();
     Film film;
     double changed = 0, tiles = 0;
     for (u32 n = 0; n < 32; ++n) {
@@ -229,8 +217,8 @@ TEST(FilmMixed, WaterHasNoGrain) {
     Film film;
     Picture p, right, raw;
     for (u32 n = 0; n < 20; ++n) {
-        const Camera c = film.begin(camera(kW, kH, kEye + Vec3{0.06f * float(n), 0, 0}), {}, false);
-        p.clear(), right.clear(), raw.clear();
+        const Camera c = film.begin(usual_camera({0.06f * float(n), 0, 0}), {}, false);
+        right.clear(), raw.clear();
         for (u32 y = 0; y < kH; ++y)
             for (u32 x = 0; x < kW; ++x) {
                 const Vec3 dir = direction_through(c, float(x) + 0.5f + c.jitter.x, float(y) + 0.5f + c.jitter.y);
@@ -242,8 +230,7 @@ TEST(FilmMixed, WaterHasNoGrain) {
                 right.push_back(expected);
             }
         film.finish(nullptr);
-        for (const Vec4& v : film.color())
-            p.push_back({v.x, v.y, v.z});
+        p = picture_of(film);
     }
     // How much pixels stand out from those beside them.
     const auto grain = [&](const Picture& a) {

@@ -141,7 +141,21 @@ inline Vec3 eye_of(const Camera& c) {
     return Vec3{float(c.eye.cell.x), float(c.eye.cell.y), float(c.eye.cell.z)} + c.eye.at;
 }
 
+// The view that most tests look at.
+inline constexpr u32 kW = 128, kH = 72;
+inline constexpr Vec3 kEye{0.3f, 2.2f, 2.7f};
+inline Camera usual_camera(Vec3 moved = {}) {
+    return camera(kW, kH, kEye + moved);
+}
+
 using Picture = std::vector<Vec3>;
+
+inline Picture picture_of(const Film& film) {
+    Picture out;
+    for (const Vec4& p : film.color())
+        out.push_back({p.x, p.y, p.z});
+    return out;
+}
 
 // One frame through the film.
 inline Picture frame(Film& film, const Scene& s, const Camera& view, const FilmSettings& settings, bool changed,
@@ -158,10 +172,15 @@ inline Picture frame(Film& film, const Scene& s, const Camera& view, const FilmS
             film.put(x, y, look(s, all, eye, dir, id));
         }
     film.finish(nullptr);
-    Picture out;
-    for (const Vec4& p : film.color())
-        out.push_back({p.x, p.y, p.z});
-    return out;
+    return picture_of(film);
+}
+// Several, each with other noise; the last one's picture. changed: with the first of them light became another.
+inline Picture frames(Film& film, const Scene& s, const Camera& view, const FilmSettings& settings, u32 count, u64 seed,
+                      bool changed = false) {
+    Picture p;
+    for (u32 n = 0; n < count; ++n)
+        p = frame(film, s, view, settings, changed && n == 0, seed + n);
+    return p;
 }
 
 // What the film should tend to: the mean over each pixel, without noise.

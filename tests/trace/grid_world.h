@@ -115,6 +115,17 @@ public:
                         at(x + i % side, y + i / side / side, z + i / side % side) = state;
                 }
     }
+    struct Share {
+        u32 state;
+        double chance;
+        i32 side = 1;
+    };
+    // Scatters all of them in turn and uploads.
+    void fill(Rng& rng, std::initializer_list<Share> shares) {
+        for (const Share& s : shares)
+            scatter(rng, s.state, s.chance, s.side);
+        upload();
+    }
 
     TestContent content;
     Grid grid{GridShape{2, 2, 2}};

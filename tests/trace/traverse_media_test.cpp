@@ -212,10 +212,7 @@ void compare(GridWorld& world, Rng& rng, u32 rays, u32 least_events) {
 TEST(TraverseMedia, GlassAndWater) {
     Rng rng(21);
     GridWorld world;
-    world.scatter(rng, t_glass, 0.1, 4);
-    world.scatter(rng, t_water, 0.1, 8);
-    world.scatter(rng, t_stone, 0.01);
-    world.upload();
+    world.fill(rng, {{t_glass, 0.1, 4}, {t_water, 0.1, 8}, {t_stone, 0.01}});
     compare(world, rng, 150, 300);
 }
 
@@ -236,11 +233,7 @@ TEST(TraverseMedia, WaterOfManyHeights) {
 TEST(TraverseMedia, SheetsAndPlants) {
     Rng rng(23);
     GridWorld world;
-    world.scatter(rng, t_leaves, 0.1, 2);
-    world.scatter(rng, t_thin, 0.05, 2);
-    world.scatter(rng, t_plant, 0.05);
-    world.scatter(rng, t_stone, 0.01);
-    world.upload();
+    world.fill(rng, {{t_leaves, 0.1, 2}, {t_thin, 0.05, 2}, {t_plant, 0.05}, {t_stone, 0.01}});
     compare(world, rng, 150, 550);
 }
 
@@ -248,8 +241,7 @@ TEST(TraverseMedia, EverythingAtOnce) {
     Rng rng(24);
     GridWorld world;
     for (u32 state = t_stone; state < t_states; ++state)
-        world.scatter(rng, state, 0.03, state == t_water ? 4 : 1);
-    world.upload();
+        world.fill(rng, {{state, 0.03, state == t_water ? 4 : 1}});
     compare(world, rng, 150, 600);
 }
 
@@ -272,8 +264,7 @@ TEST(TraverseMedia, DeepWaterIsCrossedInFewSteps) {
 TEST(TraverseMedia, EntityBoxes) {
     Rng rng(25);
     GridWorld world;
-    world.scatter(rng, t_stone, 0.001);
-    world.upload();
+    world.fill(rng, {{t_stone, 0.001}});
     SceneView s = world.scene();
     std::vector<EntityBox> boxes;
     std::vector<BoxNode> nodes(1);
