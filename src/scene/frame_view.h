@@ -6,6 +6,7 @@
 #include "math/vec.h"
 #include "scene/sky_table.h"
 #include "scene/spherical_harmonics.h"
+#include "voxel/block_storage.h"
 #include "voxel/coords.h"
 
 #include <vector>
@@ -61,15 +62,23 @@ struct Outline {
     std::vector<Box> boxes;
 };
 
+// A box that stands anywhere: someone who walks, a block that falls. Its faces are a block's, stretched over it.
+struct EntityBox {
+    Located<WorldPos> least; // corner
+    Vec3 size{1, 1, 1};      // blocks
+    StateId looks_like = StateId::air;
+};
+
 struct FrameView {
     u32 width = 854, height = 480; // of the picture
-    float resolution = 1; // 0..1, share of width and height that is drawn, then enlarged (resolution.h)
+    float resolution = 1;          // 0..1, share of width and height that is drawn, then enlarged (resolution.h)
     std::vector<View> views;
     SkyState sky;
     float view_distance = 192; // blocks
     float seconds = 0;         // for animation; never wraps visibly (kept below 2^16)
     float gamma_exposure = 1;
     std::vector<Outline> outlines;
+    std::vector<EntityBox> entities; // without who looks; the path tracer shows them
 };
 
 } // namespace vitrail::scene

@@ -1,5 +1,7 @@
 #include "trace/frame_setup.h"
 
+#include "trace/boxes.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -9,10 +11,8 @@ Camera camera_of(const scene::FrameView& frame, u32 medium) {
     const scene::View& view = frame.views[0];
     const auto& m = view.rotation.m;
     const float t = std::tan(view.fov_y * 0.5f), aspect = float(frame.width) / float(frame.height);
-    const BlockPos block = block_of(view.eye.at);
     Camera c;
-    c.eye.cell = {block.x, block.y, block.z};
-    c.eye.at = view_from(corner_of(block), view.eye.at).v;
+    c.eye = place_of(view.eye.at);
     c.right = Vec3{m[0], m[4], m[8]} * (t * aspect);
     c.up = Vec3{m[1], m[5], m[9]} * t;
     c.forward = {-m[2], -m[6], -m[10]};

@@ -99,6 +99,7 @@ void SceneHost::update(const scene::FrameView& frame) {
     lights_.update(grid_.view());
     changed_layers_.clear();
     content_.animate(frame.seconds, changed_layers_);
+    if (boxes_.update(frame.entities, dimension_, place_of(view.eye.at), content_.states())) ++revision_;
 }
 
 SceneView SceneHost::view(float seconds, float wave_height) const {
@@ -106,6 +107,7 @@ SceneView SceneHost::view(float seconds, float wave_height) const {
     content_.fill(scene);
     scene.grid = grid_.view();
     scene.lights = lights_.view();
+    boxes_.fill(scene);
     scene.seconds = seconds;
     scene.wave_height = wave_height;
     return scene;
@@ -129,8 +131,8 @@ u32 SceneHost::eye_medium(const scene::FrameView& frame) const {
 }
 
 u64 SceneHost::memory_bytes() const {
-    return grid_.memory_bytes() + lights_.memory_bytes() + content_.states().size() * sizeof(StateRecord) +
-           content_.quads().size() * sizeof(TraceQuad) +
+    return grid_.memory_bytes() + lights_.memory_bytes() + boxes_.memory_bytes() +
+           content_.states().size() * sizeof(StateRecord) + content_.quads().size() * sizeof(TraceQuad) +
            (content_.textures().albedo().size() + content_.textures().material().size()) * sizeof(u32);
 }
 

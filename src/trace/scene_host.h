@@ -4,6 +4,7 @@
 
 #include "scene/frame_view.h"
 #include "scene/tint_grid.h"
+#include "trace/boxes.h"
 #include "trace/content/content_tables.h"
 #include "trace/grid/grid.h"
 #include "trace/lights/light_store.h"
@@ -22,14 +23,14 @@ public:
     void set_chunk(ChunkPos at, DimensionId dimension, ChunkPtr chunk, const scene::TintGrid* tints);
     void clear();
 
-    // Moves the window to the eye of view 0 and takes in what was set.
+    // Moves the window to the eye of view 0 and takes in what was set, and the frame's entities.
     void update(const scene::FrameView& frame);
     // Pointers hold until the next update or set_content.
     SceneView view(float seconds, float wave_height) const;
     // Index into SceneView::media.
     u32 eye_medium(const scene::FrameView& frame) const;
 
-    u64 revision() const { return revision_; } // grows with every change of blocks and looks
+    u64 revision() const { return revision_; } // grows with every change of blocks, looks and entities
     u64 memory_bytes() const;
     u32 chunk_count() const { return grid_.chunk_count(); }
     u32 emitter_count() const { return lights_.count(); }
@@ -38,6 +39,7 @@ public:
     Grid& grid() { return grid_; }
     ContentTables& content() { return content_; }
     LightStore& lights() { return lights_; }
+    const BoxTree& boxes() const { return boxes_; }
     const std::vector<u32>& changed_layers() const { return changed_layers_; }
 
 private:
@@ -53,6 +55,7 @@ private:
     Grid grid_;
     ContentTables content_;
     LightStore lights_;
+    BoxTree boxes_;
     std::unordered_map<DimensionId, Chunks> dimensions_;
     DimensionId dimension_{};
     std::vector<ChunkPos> changed_;         // of the dimension in the grid

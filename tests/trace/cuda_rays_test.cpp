@@ -23,6 +23,8 @@ MirrorSource source_of(GridWorld& world) {
     s.grid = &world.grid;
     s.quads = world.content.quads.size();
     s.media = world.content.media.size();
+    s.box_nodes = world.boxes.nodes();
+    s.boxes = world.boxes.generation();
     return s;
 }
 
@@ -78,6 +80,18 @@ TEST(CudaRays, MeetAllKindsOfCellsAsOnTheCpu) {
     compare(probe, world, 0, 4, 20000);
     compare(probe, world, 1, 5, 5000);
     compare(probe, world, 2, 6, 5000);
+}
+
+TEST(CudaRays, FollowEntities) {
+    OPEN_OR_SKIP(probe);
+    Rng rng(9);
+    GridWorld world;
+    world.fill(rng, {{t_stone, 0.001}});
+    u64 seed = 30;
+    for (u32 boxes : {12u, 400u, 399u, 3u, 0u, 50u}) { // few go where many were, and none
+        world.scatter_boxes(rng, boxes);
+        compare(probe, world, 0, ++seed, 2000);
+    }
 }
 
 TEST(CudaRays, FollowEdits) {

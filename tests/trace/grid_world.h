@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/rng.h"
+#include "trace/boxes.h"
 #include "trace/grid/grid.h"
 #include "trace/kernel/traverse.h"
 
@@ -103,6 +104,7 @@ public:
         SceneView s;
         content.fill(s);
         s.grid = grid.view();
+        boxes.fill(s);
         return s;
     }
     // Every cell `state` with this chance; in boxes of this side.
@@ -127,7 +129,23 @@ public:
         upload();
     }
 
+    // Boxes of stone anywhere in the window, 0.5 to 3.5 blocks a side.
+    void scatter_boxes(Rng& rng, u32 count) {
+        const IVec3 o = corner();
+        const auto any = [&] { return float(rng.unit()); };
+        const auto cell = [&](i32 from) { return i32(u32(from) + rng.below(kSize - 4)); };
+        std::vector<scene::EntityBox> entities;
+        for (u32 i = 0; i < count; ++i) {
+            const WorldPos block = corner_of(BlockPos{cell(o.x), cell(o.y), cell(o.z)});
+            entities.push_back({{DimensionId{}, offset_by(block, {any(), any(), any()})},
+                                {0.5f + any() * 3, 0.5f + any() * 3, 0.5f + any() * 3},
+                                StateId(t_stone)});
+        }
+        boxes.update(entities, DimensionId{}, {{o.x + kSize / 2, o.y + kSize / 2, o.z}, {}}, content.states);
+    }
+
     TestContent content;
+    BoxTree boxes;
     Grid grid{GridShape{2, 2, 2}};
 
 private:

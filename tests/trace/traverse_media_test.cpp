@@ -241,7 +241,8 @@ TEST(TraverseMedia, EverythingAtOnce) {
     Rng rng(24);
     GridWorld world;
     for (u32 state = t_stone; state < t_states; ++state)
-        world.fill(rng, {{state, 0.03, state == t_water ? 4 : 1}});
+        world.scatter(rng, state, 0.03, state == t_water ? 4 : 1);
+    world.upload();
     compare(world, rng, 150, 600);
 }
 
@@ -265,45 +266,20 @@ TEST(TraverseMedia, EntityBoxes) {
     Rng rng(25);
     GridWorld world;
     world.fill(rng, {{t_stone, 0.001}});
-    SceneView s = world.scene();
-    std::vector<EntityBox> boxes;
-    std::vector<BoxNode> nodes(1);
-    const IVec3 o = world.corner();
-    s.boxes_from = {{o.x + 7, o.y, o.z}, {0.5f, 0, 0}};
-    for (u32 i = 0; i < 16; ++i)
-        boxes.push_back({{{o.x + i32(rng.below(60)), o.y + i32(rng.below(60)), o.z + i32(rng.below(60))},
-                          {rng.unit(), rng.unit(), rng.unit()}},
-                         {0.5f + rng.unit() * 3, 0.5f + rng.unit() * 3, 0.5f + rng.unit() * 3},
-                         t_stone});
-    // A root over leaves of four.
-    nodes.resize(7);
-    const u32 first_child[7] = {1, 3, 5, 0, 4, 8, 12};
-    for (u32 n = 7; n-- > 0;) {
-        BoxNode& node = nodes[n];
-        node.first = first_child[n], node.count = n < 3 ? 0 : 4;
-        node.least = {kFar, kFar, kFar}, node.most = {-kFar, -kFar, -kFar};
-        const auto grow = [&](Vec3 least, Vec3 most) {
-            node.least = {std::min(node.least.x, least.x), std::min(node.least.y, least.y),
-                          std::min(node.least.z, least.z)};
-            node.most = {std::max(node.most.x, most.x), std::max(node.most.y, most.y), std::max(node.most.z, most.z)};
-        };
-        for (u32 i = 0; i < 4 && n >= 3; ++i) {
-            const EntityBox& b = boxes[node.first + i];
-            const Vec3 least = offset(s.boxes_from, b.least);
-            grow(least, least + b.size);
-        }
-        for (u32 i = 0; i < 2 && n < 3; ++i)
-            grow(nodes[node.first + i].least, nodes[node.first + i].most);
-    }
-    s.boxes = boxes.data(), s.box_nodes = nodes.data(), s.box_count = 16;
-    const SceneView bare = world.scene();
+    constexpr u32 kBoxes = 37;
+    world.scatter_boxes(rng, kBoxes);
+    const SceneView s = world.scene();
+    ASSERT_EQ(s.box_count, kBoxes);
+    const EntityBox* boxes = s.boxes;
+    SceneView bare = s;
+    bare.box_count = 0;
     u32 met = 0;
     for (u32 i = 0; i < 400; ++i) {
         Ray ray = test_ray(rng, world, 0);
-        if (i % 2) ray.dir = normalized(offset(ray.from, boxes[i % 16].least) + boxes[i % 16].size * 0.5f);
+        if (i % 2) ray.dir = normalized(offset(ray.from, boxes[i % kBoxes].least) + boxes[i % kBoxes].size * 0.5f);
         float nearest = kFar;
         u32 which = 0;
-        for (u32 b = 0; b < 16; ++b) {
+        for (u32 b = 0; b < kBoxes; ++b) {
             const Vec3 to = offset(ray.from, boxes[b].least);
             double in = -1, out = 1e30;
             const float p[3] = {to.x, to.y, to.z}, d[3] = {ray.dir.x, ray.dir.y, ray.dir.z},

@@ -150,6 +150,8 @@ MirrorSource source_of(SceneHost& scene, const SceneView& view) {
     s.tables = scene.content().generation();
     s.pictures = scene.content().texture_generation();
     s.changed_layers = scene.changed_layers();
+    s.box_nodes = scene.boxes().nodes();
+    s.boxes = scene.boxes().generation();
     return s;
 }
 

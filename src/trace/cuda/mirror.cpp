@@ -86,6 +86,14 @@ Result<> SceneMirror::sync_lights(LightStore& lights, const LightView& view) {
     return sync(table, view.table, c.table_size * sizeof(u32), ranges(c.table, sizeof(u32)), false);
 }
 
+// Few, and all others in each frame in which one moves: sent whole.
+Result<> SceneMirror::sync_boxes(const MirrorSource& s) {
+    const bool all = s.boxes != boxes_;
+    boxes_ = s.boxes;
+    VX_TRY(sync(boxes, s.view.boxes, u64(s.view.box_count) * sizeof(EntityBox), {}, all));
+    return sync(box_nodes, s.view.box_nodes, s.box_nodes * sizeof(BoxNode), {}, all);
+}
+
 Result<> SceneMirror::sync_sky(const SkyView& sky) {
     if (sky.dome && !(any_dome_ && std::memcmp(&last_dome_, sky.dome, sizeof last_dome_) == 0)) {
         VX_TRY(sync(dome, sky.dome, sizeof *sky.dome, {}, true));
@@ -105,6 +113,7 @@ Result<> SceneMirror::sync_sky(const SkyView& sky) {
 Result<> SceneMirror::update(const MirrorSource& source, const SkyView* sky) {
     VX_TRY(sync_grid(*source.grid));
     VX_TRY(sync_tables(source));
+    VX_TRY(sync_boxes(source));
     if (source.lights) VX_TRY(sync_lights(*source.lights, source.view.lights));
     if (sky) VX_TRY(sync_sky(*sky));
     VX_TRY(upload_.flush());
@@ -139,7 +148,8 @@ void SceneMirror::point(const MirrorSource& source, const SkyView* sky) {
         set(v.lights.emitters, emitters);
         set(v.lights.nodes, nodes);
         set(v.lights.table, table);
-        v.boxes = nullptr, v.box_nodes = nullptr, v.box_count = 0;
+        set(v.boxes, boxes);
+        set(v.box_nodes, box_nodes);
         if (!source.lights) v.lights = LightView{};
         if (!sky) continue;
         SkyView& s = views_[i].sky;

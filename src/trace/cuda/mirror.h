@@ -49,6 +49,8 @@ private:
         table,
         dome,
         noise,
+        boxes,
+        box_nodes,
         kArrays
     };
     struct Views {
@@ -62,6 +64,7 @@ private:
     Result<> sync_grid(Grid& grid);
     Result<> sync_tables(const MirrorSource& source);
     Result<> sync_lights(LightStore& lights, const LightView& view);
+    Result<> sync_boxes(const MirrorSource& source);
     Result<> sync_sky(const SkyView& sky);
     void point(const MirrorSource& source, const SkyView* sky);
 
@@ -69,7 +72,7 @@ private:
     Upload upload_;
     std::array<Array, kArrays> arrays_;
     std::vector<Views> views_;
-    u64 tables_ = ~u64(0), pictures_ = ~u64(0);
+    u64 tables_ = ~u64(0), pictures_ = ~u64(0), boxes_ = ~u64(0);
     std::vector<u32> last_tints_;
     scene::SkyTable last_dome_;
     bool any_dome_ = false;

@@ -18,6 +18,8 @@ struct MirrorSource {
     // Another number: the tables, the pictures are others. While it stays the tables only grow.
     u64 tables = 0, pictures = 0;
     std::span<const u32> changed_layers; // of the pictures
+    u64 box_nodes = 0;                   // entries of view.box_nodes; view.box_count are the boxes
+    u64 boxes = 0;                       // another number: boxes and nodes are others
 };
 
 } // namespace vitrail::trace::cuda
