@@ -148,6 +148,7 @@ Result<> run_render(const RenderOptions& wanted) {
                                                {"mesh", still->times().mesh_s}, {"draw", draw_s}}},
                                   {"frames", path ? path->frames : 1},
                                   {"rays", traced.rays},
+                                  {"dropped", traced.dropped},
                                   {"chunks", frame.sections},
                                   {"chunks_visible", frame.sections_visible},
                                   {"triangles", frame.triangles},

@@ -18,7 +18,8 @@ Result<> trace_picture(client::Still& still, const client::CameraPose& pose, con
         if (stop) return fail(ErrorCode::denied, "interrupted");
         settings.samples = std::min(wanted.spp - done, wanted.denoise ? 1u : 4u);
         VX_TRY(still.trace(pose, wanted.width, wanted.height, wanted.time, settings));
-        stats.rays += still.tracer().stats().rays, stats.paths += still.tracer().stats().paths;
+        const trace::TracerStats& frame = still.tracer().stats();
+        stats.rays += frame.rays, stats.paths += frame.paths, stats.dropped += frame.dropped;
         progress.step(settings.samples);
     }
     stats.seconds += seconds_since(start);

@@ -17,7 +17,7 @@ struct TracedPicture {
 };
 
 struct TracedStats {
-    u64 rays = 0, paths = 0;
+    u64 rays = 0, paths = 0, dropped = 0; // see TracerStats
     double seconds = 0;
 };
 

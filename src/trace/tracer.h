@@ -54,6 +54,7 @@ enum class Layer : u8 { color, albedo, normal, distance, samples };
 
 struct TracerStats {
     u64 rays = 0, paths = 0;                            // of the last frame: all rays; camera paths
+    u64 dropped = 0;                                    // of these: no numbers, or no light; not in the picture
     u32 samples = 0;                                    // a pixel, since the view changed
     double trace_ms = 0, denoise_ms = 0, update_ms = 0; // of the last frame
     u64 host_bytes = 0, device_bytes = 0;

@@ -1,11 +1,10 @@
 // An entity's box in a picture: it is seen, throws a shadow, and goes without a trace. On the CPU, and on a CUDA device
 // where there is one.
-#include "content_fixture.h"
 #include "film_scene.h"
+#include "floor_tracer.h"
 #include "math/color.h"
 #include "scene/sky.h"
 #include "trace/frame_setup.h"
-#include "trace/tracer.h"
 
 namespace vitrail::trace {
 namespace {
@@ -33,35 +32,6 @@ scene::FrameView with_box(const char* state) {
     return frame;
 }
 
-std::unique_ptr<Tracer> on_a_floor(Device device) {
-    auto tracer = Tracer::create({.device = device, .window_chunks = 8});
-    if (!tracer) return nullptr;
-    const BaseContent& c = base_content();
-    auto floor = std::make_shared<Chunk>();
-    for (i32 i = 0; i < 256; ++i)
-        floor->blocks.set(LocalPos(i % 16, 0, i / 16), StateId(c.id("stone")));
-    EXPECT_TRUE((*tracer)->set_content(c.models, *c.states, &c.pictures));
-    (*tracer)->set_chunk({0, 0, 0}, DimensionId{}, floor, nullptr);
-    return std::move(*tracer);
-}
-
-struct Shot {
-    std::vector<Vec3> color, normal, albedo;
-    std::vector<float> distance;
-};
-std::vector<Vec3> triples(const std::vector<float>& v) {
-    std::vector<Vec3> out;
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3)
-        out.push_back({v[i], v[i + 1], v[i + 2]});
-    return out;
-}
-Shot shoot(Tracer& tracer, const scene::FrameView& frame, const TraceSettings& settings = kPlain) {
-    const auto done = tracer.render(frame, settings);
-    EXPECT_TRUE(done) << done.error().message;
-    return {triples(tracer.read(Layer::color)), triples(tracer.read(Layer::normal)),
-            triples(tracer.read(Layer::albedo)), tracer.read(Layer::distance)};
-}
-
 // The pixel that shows a place of the world.
 u32 pixel_at(Vec3 place) {
     const Camera c = camera_of(frame_of(), 0);
@@ -83,9 +53,9 @@ Vec3 shadow_place() {
 }
 
 TEST(EntityPicture, ABoxIsSeenAndThrowsAShadow) {
-    const auto tracer = on_a_floor(Device::cpu);
-    const Shot bare = shoot(*tracer, frame_of());
-    const Shot shot = shoot(*tracer, with_box("red_wool"));
+    Tracer* const tracer = on_a_floor(Device::cpu);
+    const Shot bare = shoot(*tracer, frame_of(), kPlain);
+    const Shot shot = shoot(*tracer, with_box("red_wool"), kPlain);
     EXPECT_EQ(tracer->stats().samples, kPlain.samples) << "another scene: the sums began anew";
     const u32 front = pixel_at(kLeast + Vec3{kSize.x / 2, kSize.y / 2, 0}),
               top = pixel_at(kLeast + Vec3{0.5f, kSize.y, 0.4f}), shade = pixel_at(shadow_place()),
@@ -107,26 +77,26 @@ TEST(EntityPicture, ABoxIsSeenAndThrowsAShadow) {
     EXPECT_NEAR(light_at(shot, lit) / light_at(bare, lit), 1, 0.05);
     // It goes, and nothing of it stays.
     tracer->forget_frames();
-    const Shot first = shoot(*tracer, frame_of());
+    const Shot first = shoot(*tracer, frame_of(), kPlain);
     for (std::size_t i = 0; i < bare.color.size(); ++i)
         ASSERT_TRUE(first.color[i] == bare.color[i]) << i;
 }
 
 TEST(EntityPicture, ABoxThatShinesLightsTheNight) {
-    const auto tracer = on_a_floor(Device::cpu);
+    Tracer* const tracer = on_a_floor(Device::cpu);
     scene::FrameView dark = frame_of(), lamp = with_box("glowstone");
     dark.sky = lamp.sky = scene::sky_at(18000);
-    const Shot without = shoot(*tracer, dark), with = shoot(*tracer, lamp);
+    const Shot without = shoot(*tracer, dark, kPlain), with = shoot(*tracer, lamp, kPlain);
     const u32 below = pixel_at({7.9f, 1, 7.4f});
     EXPECT_GT(light_at(with, below), 5 * light_at(without, below));
 }
 
 TEST(EntityPicture, IsTheSameOnADevice) {
-    const auto gpu = on_a_floor(Device::cuda), cpu = on_a_floor(Device::cpu);
+    Tracer *const gpu = on_a_floor(Device::cuda), *const cpu = on_a_floor(Device::cpu);
     if (!gpu) GTEST_SKIP() << Tracer::possible_on(Device::cuda).error().message;
     scene::FrameView frame = with_box("red_wool");
     for (u32 step = 0; step < 3; ++step) {
-        const Shot a = shoot(*gpu, frame), b = shoot(*cpu, frame);
+        const Shot a = shoot(*gpu, frame, kPlain), b = shoot(*cpu, frame, kPlain);
         double off = 0, sum = 0;
         u32 far = 0;
         for (std::size_t i = 0; i < b.color.size(); ++i) {

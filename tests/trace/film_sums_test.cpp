@@ -128,6 +128,29 @@ TEST(FilmSums, SumsStartAnewWhenSomethingMoves) {
     EXPECT_FLOAT_EQ(run(moved, plain, false, 2), 2);
 }
 
+// It is as if it had not been, not as if it had been dark.
+TEST(FilmSums, AFaultAmongOthersIsNotBlack) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const bool denoise : {false, true}) {
+        Film film;
+        film.resize(1, 1);
+        film.begin(small_camera(1, 1), {.denoise = denoise, .samples = 4}, false);
+        SampleMean m;
+        for (const Vec3 light : {Vec3{1, 2, 4}, {nan, 1, 1}, {3, 4, 0}, {1, 1, -nan}})
+            add_sample(m, lit(light));
+        EXPECT_EQ(m.samples, 2u);
+        EXPECT_EQ(m.dropped, 2u);
+        EXPECT_EQ(m.seen, 4u) << "its guides are sound";
+        film.put(0, 0, m);
+        film.finish(nullptr);
+        EXPECT_NEAR(film.color()[0].x, 0.5f * 2, 1e-6);
+        EXPECT_NEAR(film.color()[0].y, 0.25f * 3, 1e-6);
+        EXPECT_NEAR(film.color()[0].z, 0.125f * 2, 1e-6);
+        EXPECT_EQ(film.dropped(), 2u);
+        if (!denoise) EXPECT_EQ(film.counts()[0], 2);
+    }
+}
+
 TEST(FilmSums, SamplesOfAPixelBecomeOne) {
     SampleMean m;
     PixelSample a = lit({1, 2, 4}), b = lit({3, 0, 0});

@@ -97,6 +97,7 @@ Result<> CpuTracer::render(const scene::FrameView& frame, const TraceSettings& s
     const SceneView scene = scene_.view(frame.seconds, settings.wave_height);
     const SkyView sky = sky_view_of(frame);
     if (film_.width() != frame.width || film_.height() != frame.height) film_.resize(frame.width, frame.height);
+    const u64 dropped = film_.dropped();
     const bool changed = watch_.changed(frame, settings, scene_.revision());
     const Camera camera = film_.begin(camera_of(frame, scene_.eye_medium(frame)), film_settings_of(settings), changed);
     const u64 updated = now_ns();
@@ -124,6 +125,7 @@ Result<> CpuTracer::render(const scene::FrameView& frame, const TraceSettings& s
     ++frames_;
 
     stats_.rays = rays, stats_.paths = paths;
+    stats_.dropped = film_.dropped() - dropped;
     stats_.samples = film_.samples();
     stats_.update_ms = double(updated - start) * 1e-6;
     stats_.trace_ms = double(traced - updated) * 1e-6;

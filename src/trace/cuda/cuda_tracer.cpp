@@ -249,11 +249,12 @@ Result<> CudaTracer::collect() {
             cudaMemcpyAsync(counts + i, counts_[i].as(), sizeof(PathCounts), cudaMemcpyDeviceToHost, gpus_[i].stream),
             "reading counts"));
     }
-    stats_.rays = stats_.paths = 0;
+    stats_.rays = stats_.paths = stats_.dropped = 0;
     stats_.trace_ms = stats_.denoise_ms = 0;
     for (std::size_t i = 0; i < gpus_.size(); ++i) {
         VX_TRY(gpus_[i].wait());
         stats_.rays += counts[i].rays, stats_.paths += counts[i].paths;
+        stats_.dropped += counts[i].dropped; // the first one's, of all
         float ms = 0;
         VX_TRY(check(cudaEventElapsedTime(&ms, events_[i].begin, events_[i].end), "asking for times"));
         stats_.trace_ms = std::max(stats_.trace_ms, double(ms));
