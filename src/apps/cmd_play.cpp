@@ -53,6 +53,7 @@ Result<> run_play(const PlayOptions& options) {
     game.change_effects = [arguments = options.effects](const render::Effects& kept) { return *effects_of(arguments, kept); };
     game.trace = options.renderer == "trace";
     VX_TRY_ASSIGN(game.trace_device, client::trace_device_named(options.device));
+    game.trace_devices = u32(options.devices);
     if (game.trace) VX_TRY(trace::Tracer::possible_on(game.trace_device)); // F5 says so in the game; here it is told before a window opens
     VX_TRY(trace_options_of(options.trace, {}));
     game.change_trace = [changes = options.trace](const client::TraceOptions& kept) { return *trace_options_of(changes, kept); };

@@ -81,6 +81,7 @@ Result<> run_render(const RenderOptions& wanted) {
     still_options.packs = options.packs;
     if (options.renderer == "trace") {
         VX_TRY_ASSIGN(still_options.trace, client::trace_device_named(options.device));
+        still_options.trace_devices = u32(options.devices);
     }
     bool from_spawn = false;
     if (options.at.empty()) {

@@ -60,7 +60,7 @@ struct RenderOptions {
     std::string world, dimension, at, look, size = "854x480", renderer = "raster", device = "auto", output, stats_file;
     std::optional<u64> seed;
     float fov_deg = 70, time = 6000;
-    int view_distance = 12, spp = 64, bounces = 4, trace_seed = 0;
+    int view_distance = 12, spp = 64, bounces = 4, trace_seed = 0, devices = 1;
     std::string denoise = "on";
     std::string path_file; // a camera path: many frames
     double fps = 30;
@@ -76,6 +76,7 @@ struct PlayOptions {
     std::optional<u64> seed;
     int view_distance = 0; // 0: as the settings say
     std::string device = "auto";
+    int devices = 1;
     EffectArguments effects; // over the settings
     std::vector<std::string> packs; // instead of the settings'
     std::vector<std::string> trace; // KEY=VALUE, over the settings

@@ -133,6 +133,7 @@ int main(int argc, char** argv) {
         c->add_option("--renderer", render.renderer, "raster or trace");
         c->add_option("--spp", render.spp, "samples a pixel (trace)")->check(CLI::Range(1, 1'000'000));
         c->add_option("--device", render.device, "cpu, cuda or auto (trace)");
+        c->add_option("--devices", render.devices, "CUDA devices that share a picture, at most (trace)")->check(CLI::Range(1, 64));
         c->add_option("--denoise", render.denoise, "on or off (trace)");
         c->add_option("--bounces", render.bounces, "scattering events of a path (trace)")->check(CLI::Range(0, 64));
         c->add_option("--trace-seed", render.trace_seed, "another seed, other noise (trace)")->check(CLI::Range(0, 2'000'000'000));
@@ -158,6 +159,7 @@ int main(int argc, char** argv) {
         c->add_option("--name", play.name, "player name");
         c->add_option("--view-distance", play.view_distance, "chunks")->check(CLI::Range(1, 32));
         c->add_option("--device", play.device, "what makes the land and traces light: cpu, cuda or auto");
+        c->add_option("--devices", play.devices, "CUDA devices that share a traced picture, at most")->check(CLI::Range(1, 64));
         add_effect_arguments(*c, play.effects);
         c->add_option("--trace", play.trace, "KEY=VALUE of the path tracer, such as bounces=2; may be repeated")->take_all()->expected(1);
         c->add_option("--pack", play.packs, "resource pack, zip or folder; several: the later covers the earlier")->allow_extra_args(false);

@@ -34,6 +34,7 @@ struct GameOptions {
     std::string shader_folder;               // see render::RendererOptions
     bool trace = false;                      // begins with the path tracer
     trace::Device trace_device = trace::Device::best;
+    u32 trace_devices = 1; // CUDA: a picture is split over so many at most
     std::function<TraceOptions(const TraceOptions&)> change_trace; // as change_effects
     // What the command line makes of the effects kept; null: nothing.
     std::function<render::Effects(const render::Effects&)> change_effects;

@@ -13,7 +13,7 @@ double trace_budget_ms(double frame_seconds) {
 }
 
 static Result<> open_tracer(GameState& state) {
-    VX_TRY_ASSIGN(state.traced, TracedView::open({state.options.trace_device, *state.pool, *state.feeder,
+    VX_TRY_ASSIGN(state.traced, TracedView::open({state.options.trace_device, state.options.trace_devices, *state.pool, *state.feeder,
                                                   state.game->replica(), state.registry, state.pack_looks}));
     return {};
 }

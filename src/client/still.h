@@ -17,16 +17,17 @@
 namespace vitrail::client {
 
 struct StillOptions {
-    std::string world;       // folder, opened read-only; empty: a world of `seed` that is kept nowhere
+    std::string world; // folder, opened read-only; empty: a world of `seed` that is kept nowhere
     u64 seed = 1;
-    std::string dimension;   // name; empty: the world's spawn dimension
+    std::string dimension; // name; empty: the world's spawn dimension
     CameraPose pose;
-    u32 view_distance = 12;  // chunks
+    u32 view_distance = 12; // chunks
     render::Effects effects = render::preset_effects(render::Preset::high);
-    std::string shader_folder; // see render::RendererOptions
-    std::vector<std::string> packs; // resource packs, the later over the earlier
-    std::optional<trace::Device> trace; // pictures are traced, on this device; else rasterized
-    double seconds_most = 600; // for the world to arrive
+    std::string shader_folder;               // see render::RendererOptions
+    std::vector<std::string> packs;          // resource packs, the later over the earlier
+    std::optional<trace::Device> trace;      // pictures are traced, on this device; else rasterized
+    u32 trace_devices = 1;                   // CUDA: split over so many at most
+    double seconds_most = 600;               // for the world to arrive
     const std::atomic<bool>* stop = nullptr; // where it turns true, opening ends with an error
 };
 
@@ -36,7 +37,8 @@ struct StillTimes {
 
 class Still {
 public:
-    // Opens the world and waits until everything the eye could see is meshed and on the GPU. Errors: no OpenGL, the world's, limit.
+    // Opens the world and waits until everything the eye could see is meshed and on the GPU. Errors: no OpenGL, the
+    // world's, limit.
     static Result<std::unique_ptr<Still>> open(const StillOptions& options, const Content& content);
     ~Still();
     // time: 0..24000. The pose may turn and move within the view distance. As many frames as the effects need to settle
@@ -50,14 +52,15 @@ public:
     // Without reading pixels back; finishes drawing. For timing.
     Result<> draw_only(const CameraPose& pose, u32 width, u32 height, float time);
     // GPU milliseconds by pass, in the passes' order; the least of a few frames, drawn for it.
-    Result<std::vector<std::pair<std::string, double>>> time_passes(const CameraPose& pose, u32 width, u32 height, float time);
+    Result<std::vector<std::pair<std::string, double>>> time_passes(const CameraPose& pose, u32 width, u32 height,
+                                                                    float time);
 
     // The path tracer, where it was asked for: one more frame of samples, and the picture so far as the eye shows it.
     Result<> trace(const CameraPose& pose, u32 width, u32 height, float time, const trace::TraceSettings& settings);
     // settled false: the eye grows used to light as it does while playing.
     Result<render::Image> develop(const CameraPose& pose, u32 width, u32 height, float time, bool settled = true);
-    // Waits until the world around another place is here too. Nothing is done where the eye stays in its section. Errors:
-    // as of open.
+    // Waits until the world around another place is here too. Nothing is done where the eye stays in its section.
+    // Errors: as of open.
     Result<> go_to(const CameraPose& pose);
     // Seconds of animation, from 0 on: waves, clouds, pictures that move.
     void set_seconds(float seconds) { seconds_ = seconds; }

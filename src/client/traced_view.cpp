@@ -40,6 +40,7 @@ Result<std::unique_ptr<TracedView>> TracedView::open(const Parts& parts) {
     std::unique_ptr<TracedView> view(new TracedView(parts));
     trace::TracerOptions options;
     options.device = parts.device;
+    options.devices_most = parts.devices_most;
     options.pool = &parts.pool;
     VX_TRY_ASSIGN(view->tracer_, trace::Tracer::create(options));
     view->feeder_ = std::make_unique<TraceFeeder>(*view->tracer_);

@@ -25,6 +25,7 @@ class TracedView {
 public:
     struct Parts {
         trace::Device device = trace::Device::cpu;
+        u32 devices_most = 1;
         ThreadPool& pool;
         SectionFeeder& sections;
         replica::Replica& replica;

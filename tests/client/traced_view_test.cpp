@@ -65,7 +65,7 @@ struct TracedViewTest : testing::Test {
         pool = std::make_unique<ThreadPool>(1);
         feeder = std::make_unique<client::SectionFeeder>(*renderer, *pool);
         auto traced =
-            client::TracedView::open({trace::Device::cpu, *pool, *feeder, game->replica(), content.registry, nullptr});
+            client::TracedView::open({trace::Device::cpu, 1, *pool, *feeder, game->replica(), content.registry, nullptr});
         ASSERT_TRUE(traced) << traced.error().message;
         view = std::move(*traced);
         feeder->set_meshing(false);
