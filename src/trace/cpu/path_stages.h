@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trace/cpu/path_stream.h"
+#include "trace/cpu/row.h"
 
 namespace vitrail::trace::stream {
 
@@ -44,37 +45,129 @@ struct PathStages {
     void (*arrive)(const PathFrame&, PixelSample* sums, PathArrays&); // what `lit` says of the light rays
 };
 
+// ---- Numbers of many paths at once: a path's next draws, made ahead. What is not drawn is lost, what is drawn beyond
+// is made then.
+
+inline constexpr u32 kBlock = 64;     // paths
+inline constexpr u32 kAheadMost = 10; // draws
+
+struct alignas(64) BlockDraws {
+    u32 sample[kBlock] = {}, place[kBlock] = {}, frame[kBlock] = {}, pixel[kBlock] = {}, drawn[kBlock] = {};
+    float x[kAheadMost][kBlock], y[kAheadMost][kBlock];
+};
+VX_HD void put_sampler(BlockDraws& b, u32 lane, const Sampler& s) {
+    b.sample[lane] = s.sample, b.place[lane] = s.place, b.frame[lane] = s.frame, b.pixel[lane] = s.pixel,
+    b.drawn[lane] = s.drawn;
+}
+VX_HD void make_draws(BlockDraws& b, u32 lanes, u32 draws) {
+    for (u32 k = 0; k < draws; ++k) {
+        float *const to_x = b.x[k], *const to_y = b.y[k];
+        VX_ROW for (u32 i = 0; i < lanes; ++i) {
+            const Vec2 u = point_of_draw({b.sample[i], b.place[i], b.frame[i], b.pixel[i], 0}, b.drawn[i] + k);
+            to_x[i] = u.x, to_y[i] = u.y;
+        }
+    }
+}
+
+// Stands for a path's sampler.
+struct DrawsAhead {
+    Sampler& sampler;
+    const BlockDraws& block;
+    u32 lane, count;
+};
+VX_HD Vec2 next_2d(DrawsAhead& d) {
+    const u32 k = d.sampler.drawn - d.block.drawn[d.lane];
+    if (k >= d.count) return trace::next_2d(d.sampler);
+    ++d.sampler.drawn;
+    return {d.block.x[k][d.lane], d.block.y[k][d.lane]};
+}
+VX_HD float next_1d(DrawsAhead& d) {
+    const u32 k = d.sampler.drawn - d.block.drawn[d.lane];
+    if (k >= d.count) return trace::next_1d(d.sampler);
+    ++d.sampler.drawn;
+    return d.block.x[k][d.lane];
+}
+
+// ----
+
+// As start_path, many at once.
 template <int Tag>
 void start_paths(const PathFrame& f, const PathStart* starts, u32 count, PixelSample* sums, PathArrays& a) {
-    for (u32 i = 0; i < count; ++i) {
-        a.paths[i] = start_path(*f.camera, *f.settings, starts[i].x, starts[i].y, starts[i].sample, sums[i]);
-        a.live[i] = i;
-        a.rays[i] = a.paths[i].ray;
-        a.media[i] = u8(a.paths[i].medium);
+    const Camera camera = *f.camera; // in this function's hands: nothing written changes it
+    const PathSettings settings = *f.settings;
+    BlockDraws draws;
+    alignas(64) u32 x[kBlock] = {}, y[kBlock] = {};
+    alignas(64) float dir[3][kBlock];
+    for (u32 from = 0; from < count; from += kBlock) {
+        const u32 lanes = count - from < kBlock ? count - from : kBlock;
+        for (u32 i = 0; i < lanes; ++i) {
+            const PathStart& s = starts[from + i];
+            x[i] = s.x, y[i] = s.y, draws.sample[i] = s.sample;
+        }
+        VX_ROW for (u32 i = 0; i < lanes; ++i) {
+            const Sampler s = sampler_of_path(settings, x[i], y[i], draws.sample[i]);
+            draws.sample[i] = s.sample, draws.place[i] = s.place, draws.frame[i] = s.frame, draws.pixel[i] = s.pixel;
+        }
+        make_draws(draws, lanes, 1);
+        VX_ROW for (u32 i = 0; i < lanes; ++i) {
+            const Vec3 d = start_direction(camera, x[i], y[i], {draws.x[0][i], draws.y[0][i]});
+            dir[0][i] = d.x, dir[1][i] = d.y, dir[2][i] = d.z;
+        }
+        for (u32 i = 0; i < lanes; ++i) {
+            const u32 path = from + i;
+            PathState& p = a.paths[path];
+            p = PathState{};
+            p.sampler = {draws.sample[i], draws.place[i], draws.frame[i], draws.pixel[i], 1};
+            p.ray = {camera.eye, {dir[0][i], dir[1][i], dir[2][i]}};
+            p.medium = camera.medium;
+            sums[path] = {};
+            a.live[path] = path;
+            a.rays[path] = p.ray;
+            a.media[path] = u8(p.medium);
+        }
     }
-    a.alive = f.settings->events_most > 0 ? count : 0;
+    a.alive = settings.events_most > 0 ? count : 0;
 }
 
 template <int Tag>
 void meet_events(const PathFrame& f, PixelSample* sums, PathArrays& arrays) {
-    const PathArrays a = arrays; // in this function's hands: nothing written changes them
+    const PathArrays a = arrays;
     const float pixel = pixel_width(*f.camera);
+    const u32 usual = f.scene->lights.count > 0 ? 6 : 4; // direction, sun, lamp, roulette
+    BlockDraws draws;
     u32 on = 0, lights = 0;
-    for (u32 i = 0; i < a.alive; ++i) {
-        const u32 path = a.live[i];
-        const auto send = [&](const LightRay& to) {
-            a.light_rays[lights] = to.ray;
-            a.light_reach[lights] = light_reach(to.distance);
-            a.light_media[lights] = u8(to.medium);
-            a.carried[lights] = {to.value, to.distance, path, to.counts};
-            ++lights;
-        };
-        PathState& p = a.paths[path];
-        if (!path_event(*f.scene, *f.sky, *f.settings, pixel, a.hits[i], p, sums[path], send)) continue;
-        a.live[on] = path;
-        a.rays[on] = p.ray;
-        a.media[on] = u8(p.medium);
-        ++on;
+    for (u32 from = 0; from < a.alive; from += kBlock) {
+        const u32 end = a.alive - from < kBlock ? a.alive : from + kBlock;
+        u32 lanes = 0;
+        bool any_sharp = false;
+        u8 lane_of[kBlock];
+        for (u32 i = from; i < end; ++i) { // whoever scatters nowhere draws nothing
+            const PathState& p = a.paths[a.live[i]];
+            if (a.hits[i].kind == HitKind::nothing && !p.sharp) continue;
+            any_sharp |= p.sharp;
+            lane_of[i - from] = u8(lanes);
+            put_sampler(draws, lanes++, p.sampler);
+        }
+        const u32 ahead = any_sharp ? kAheadMost : usual; // what floats in air takes three more
+        make_draws(draws, lanes, ahead);
+        for (u32 i = from; i < end; ++i) {
+            const u32 path = a.live[i];
+            PathState& p = a.paths[path];
+            const auto send = [&](const LightRay& to) {
+                a.light_rays[lights] = to.ray;
+                a.light_reach[lights] = light_reach(to.distance);
+                a.light_media[lights] = u8(to.medium);
+                a.carried[lights] = {to.value, to.distance, path, to.counts};
+                ++lights;
+            };
+            const bool none = a.hits[i].kind == HitKind::nothing && !p.sharp;
+            DrawsAhead own{p.sampler, draws, none ? 0u : lane_of[i - from], none ? 0 : ahead};
+            if (!path_event(*f.scene, *f.sky, *f.settings, pixel, a.hits[i], p, own, sums[path], send)) continue;
+            a.live[on] = path;
+            a.rays[on] = p.ray;
+            a.media[on] = u8(p.medium);
+            ++on;
+        }
     }
     arrays.alive = on, arrays.lights = lights;
 }

@@ -1,19 +1,12 @@
 // Rows of the film's stages; included once a vector set. The tag keeps their instances apart.
 #pragma once
 
+#include "trace/cpu/row.h"
 #include "trace/film/stages.h"
 
 #include <utility>
 
 namespace vitrail::trace {
-
-// Pixels of a row do not read what others of the stage write.
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wpass-failed" // sanitizers keep loops as they are
-#define VX_ROW _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define VX_ROW _Pragma("GCC ivdep")
-#endif
 
 template <int Tag, FilmStep S>
 void run_rows(const FilmPlanes& planes, const FilmFrame& frame, u32 level, u32 y0, u32 y1) {

@@ -28,15 +28,23 @@ VX_HD float pixel_width(const Camera& camera) {
     return 2 * length(camera.up) / float(camera.height);
 }
 
-// x, y: the pixel; sample: of this frame. sum: of the path, empty.
+// The sampler of a path, before its first draw. sample: of this frame.
+VX_HD Sampler sampler_of_path(const PathSettings& settings, u32 x, u32 y, u32 sample) {
+    return make_sampler(x, y, settings.first_sample + sample, settings.seed);
+}
+// inside: where in its pixel the path starts, unless the film holds all at the same place.
+VX_HD Vec3 start_direction(const Camera& camera, u32 x, u32 y, Vec2 inside) {
+    const bool held = camera.jitter.x != 0 || camera.jitter.y != 0; // the film says where
+    return direction_through(camera, float(x) + (held ? 0.5f + camera.jitter.x : inside.x),
+                             float(y) + (held ? 0.5f + camera.jitter.y : inside.y));
+}
+
+// x, y: the pixel. sum: of the path, empty.
 VX_HD PathState start_path(const Camera& camera, const PathSettings& settings, u32 x, u32 y, u32 sample,
                            PixelSample& sum) {
     PathState path;
-    path.sampler = make_sampler(x, y, settings.first_sample + sample, settings.seed);
-    const Vec2 inside = next_2d(path.sampler);
-    const bool held = camera.jitter.x != 0 || camera.jitter.y != 0; // the film says where
-    path.ray = {camera.eye, direction_through(camera, float(x) + (held ? 0.5f + camera.jitter.x : inside.x),
-                                              float(y) + (held ? 0.5f + camera.jitter.y : inside.y))};
+    path.sampler = sampler_of_path(settings, x, y, sample);
+    path.ray = {camera.eye, start_direction(camera, x, y, next_2d(path.sampler))};
     path.medium = camera.medium;
     sum = {};
     return path;

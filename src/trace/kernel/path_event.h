@@ -79,9 +79,11 @@ struct Event {
 };
 
 // Light that the ray finds in the sky.
-VX_HD void meet_sky(const SkyView& sky, const PathSettings& settings, float pixel, PathState& path, PixelSample& sum) {
+template <class Draws>
+VX_HD void meet_sky(const SkyView& sky, const PathSettings& settings, float pixel, PathState& path, Draws& draws,
+                    PixelSample& sum) {
     if (path.sharp) {
-        sum.base += path.carried * eye_sky(sky, path.ray.dir, pixel, next_1d(path.sampler), path.bent);
+        sum.base += path.carried * eye_sky(sky, path.ray.dir, pixel, next_1d(draws), path.bent);
         return;
     }
     Vec3 found = sky_light(sky, path.ray.dir);
@@ -117,8 +119,9 @@ VX_HD void note_guides(const SurfacePoint& p, const PathState& path, PixelSample
 }
 
 // From the surface straight to the sun or to a lamp. False: nothing comes from there.
-VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, const Event& e, PathState& path,
-                     LightRay& out) {
+template <class Draws>
+VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, const Event& e, const PathState& path,
+                     Draws& draws, LightRay& out) {
     const SurfacePoint& p = e.p;
     const Vec3 to_eye = -path.ray.dir;
     out.ray.from = p.at;
@@ -126,11 +129,11 @@ VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, cons
     float pdf;
     EmitterSample found;
     if (!lamp) {
-        const SunSample sun = sample_sun(sky, next_2d(path.sampler));
+        const SunSample sun = sample_sun(sky, next_2d(draws));
         out.ray.dir = sun.dir, pdf = sun.pdf, out.value = sun.radiance;
     } else {
-        const float which = next_1d(path.sampler);
-        if (!find_lamp(scene, p.at, e.side, which, next_2d(path.sampler), found)) return false;
+        const float which = next_1d(draws);
+        if (!find_lamp(scene, p.at, e.side, which, next_2d(draws), found)) return false;
         out.ray.dir = found.dir, pdf = found.pdf, out.distance = found.distance;
     }
     const bool behind = dot(p.face, out.ray.dir) < 0;
@@ -147,17 +150,19 @@ VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, cons
 }
 
 // From a floating speck.
-VX_HD bool aim_from_air(const SceneView& scene, const SkyView& sky, bool any_lamp, const Speck& speck, PathState& path,
-                        LightRay& out) {
-    const float choose = next_1d(path.sampler), which = next_1d(path.sampler);
+template <class Draws>
+VX_HD bool aim_from_air(const SceneView& scene, const SkyView& sky, bool any_lamp, const Speck& speck,
+                        const PathState& path, Draws& draws, LightRay& out) {
+    const float choose = next_1d(draws), which = next_1d(draws);
     out.medium = path.medium;
     out.counts = LightRay::Counts::air;
-    return aim_speck(scene, sky, any_lamp, path.ray, path.medium, speck, choose, which, next_2d(path.sampler),
-                     out.ray.from, out.ray.dir, out.distance, out.value);
+    return aim_speck(scene, sky, any_lamp, path.ray, path.medium, speck, choose, which, next_2d(draws), out.ray.from,
+                     out.ray.dir, out.distance, out.value);
 }
 
 // Sets the ray that the path goes on with. False: it ends.
-VX_HD bool go_on(const PathSettings& settings, const Event& e, PathState& path) {
+template <class Draws>
+VX_HD bool go_on(const PathSettings& settings, const Event& e, PathState& path, Draws& draws) {
     const SurfacePoint& p = e.p;
     path.carried = path.carried * e.next.weight;
     if (e.next.through) {
@@ -181,7 +186,7 @@ VX_HD bool go_on(const PathSettings& settings, const Event& e, PathState& path) 
         path.scatter_side = e.side;
         if (++path.bounces >= settings.roulette_from) {
             const float stay = clamp(greatest(path.carried), 0.05f, 1.0f);
-            if (next_1d(path.sampler) >= stay) return false;
+            if (next_1d(draws) >= stay) return false;
             path.carried = path.carried * (1 / stay);
         }
     }
@@ -190,10 +195,11 @@ VX_HD bool go_on(const PathSettings& settings, const Event& e, PathState& path) 
 
 // hit: of path.ray, as closest_hit tells. pixel: blocks that a pixel is wide at distance 1. sum: of the path, see
 // finish_path; send(const LightRay&) is called for each ray to a light, at most three; what arrives belongs into `sum`
-// before the next event's. True: path.ray is to be traced, and its hit to be told.
-template <class Send>
+// before the next event's. draws: path.sampler, or something that next_1d and next_2d give the same numbers of. True:
+// path.ray is to be traced, and its hit to be told.
+template <class Draws, class Send>
 VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSettings& settings, float pixel,
-                      const Hit& hit, PathState& path, PixelSample& sum, Send&& send) {
+                      const Hit& hit, PathState& path, Draws& draws, PixelSample& sum, Send&& send) {
     if (hit.kind == HitKind::unknown) return false;
     const bool met = hit.kind != HitKind::nothing;
     const bool any_sun = greatest(sky.sun_light) > 0, any_lamp = settings.direct_lamps && scene.lights.count > 0;
@@ -201,8 +207,7 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
 
     Speck floating{};
     if (path.sharp && settings.fog) {
-        const Stretch stretch =
-            cross_stretch(scene, sky, path.ray, met ? hit.t : kFar, path.medium, next_1d(path.sampler));
+        const Stretch stretch = cross_stretch(scene, sky, path.ray, met ? hit.t : kFar, path.medium, next_1d(draws));
         floating = stretch.speck;
         floating.weight = floating.weight * path.carried;
         path.carried = path.carried * stretch.left;
@@ -212,7 +217,7 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
 
     Event e;
     if (!met) {
-        meet_sky(sky, settings, pixel, path, sum);
+        meet_sky(sky, settings, pixel, path, draws, sum);
     } else {
         SurfacePoint& p = e.p;
         p = surface_at(scene, path.ray, hit, path.sharp ? (path.way + hit.t) * pixel : 0.0f);
@@ -223,8 +228,8 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
             path.carried = path.carried * (1 - faded);
         }
         if (greatest(p.emission) > 0) meet_emission(scene, settings, hit, p, any_lamp, path, sum);
-        const float choose = next_1d(path.sampler);
-        const Vec2 where = next_2d(path.sampler);
+        const float choose = next_1d(draws);
+        const Vec2 where = next_2d(draws);
         const bool last = path.bounces >= settings.bounces;
         // After the last scattering an exact mirror's share alone goes on.
         if (!last || may_mirror(p)) e.next = sample_bsdf(p, -path.ray.dir, choose, where);
@@ -247,12 +252,18 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
         LightRay to;
         bool sent = false;
         if (k == 2)
-            sent = floating.scatters && aim_from_air(scene, sky, any_lamp, floating, path, to);
+            sent = floating.scatters && aim_from_air(scene, sky, any_lamp, floating, path, draws, to);
         else if (e.samples_light && (k == 0 ? any_sun : any_lamp))
-            sent = aim_light(scene, sky, k == 1, e, path, to);
+            sent = aim_light(scene, sky, k == 1, e, path, draws, to);
         if (sent && greatest(to.value) > 0) send(static_cast<const LightRay&>(to));
     }
-    return met && greatest(e.next.weight) > 0 && go_on(settings, e, path);
+    return met && greatest(e.next.weight) > 0 && go_on(settings, e, path, draws);
+}
+
+template <class Send>
+VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSettings& settings, float pixel,
+                      const Hit& hit, PathState& path, PixelSample& sum, Send&& send) {
+    return path_event(scene, sky, settings, pixel, hit, path, path.sampler, sum, send);
 }
 
 } // namespace vitrail::trace

@@ -94,9 +94,9 @@ VX_HD constexpr Sampler make_sampler(u32 x, u32 y, u32 sample, u32 seed) {
     return {reversed_bits(sample), reversed_bits(place), frame, mixed(place ^ mixed(frame)), 0};
 }
 
-// A point of the unit square, 0 <= x, y < 1.
-VX_HD constexpr Vec2 next_2d(Sampler& s) {
-    const u32 draw = s.drawn++, dithered = draw < kDithered;
+// The point of one draw, 0 <= x, y < 1.
+VX_HD constexpr Vec2 point_of_draw(const Sampler& s, u32 draw) {
+    const bool dithered = draw < kDithered;
     const u32 key = mixed((dithered ? s.frame : s.pixel) + draw * 0x9e3779b9u);
     const u32 index = reversed_bits(scrambled_reversed(s.sample, key));
     u32 x = scrambled_reversed(index, key ^ 0x68bc21ebu);
@@ -109,7 +109,12 @@ VX_HD constexpr Vec2 next_2d(Sampler& s) {
     return shares_of_reversed(x, y);
 }
 
-// 0 <= x < 1.
+// A point of the unit square.
+VX_HD constexpr Vec2 next_2d(Sampler& s) {
+    return point_of_draw(s, s.drawn++);
+}
+
+// 0 <= result < 1: the x of what next_2d would give.
 VX_HD constexpr float next_1d(Sampler& s) {
     const u32 draw = s.drawn++, dithered = draw < kDithered;
     const u32 key = mixed((dithered ? s.frame : s.pixel) + draw * 0x9e3779b9u);
