@@ -19,8 +19,8 @@ void trace_stream(const SceneView& scene, const RayStream& rays, std::span<Hit> 
 
 enum class Lit : u8 {
     open = 0,   // nothing is in the way
-    shadow = 1, // something opaque is
-    panes = 2,  // something that light may pass is met before anything opaque: ask shadowed()
+    shadow = 1, // something opaque is, or leaves
+    panes = 2,  // something that light goes straight through, at least in part, is met first: ask shadowed()
 };
 void shadow_stream(const SceneView& scene, const RayStream& rays, std::span<Lit> lit);
 

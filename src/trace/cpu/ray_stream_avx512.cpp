@@ -2,7 +2,8 @@
 //
 // A lane makes the same steps as next_in_air (trace/kernel/grid_walk.h), in float; where float is not sure which plane
 // comes first or on which side of a plane the ray is, that lane's step is made by the scalar code instead, in double.
-// So cells are the same, always. What was met is told apart by scalar code too.
+// So cells are the same, always. What was met is told apart by scalar code too, and where a ray passes what is in a
+// cell (a plant, a hole between leaves, a slope of water) it queues for lanes again.
 //
 // Coordinates are mirrored on axes where the ray runs down (~c, and -at), so that all rays run up.
 #include "trace/cpu/ray_stream_scalar.h"
@@ -20,10 +21,11 @@ constexpr float kNearPlane = 1e-6f;                      // blocks a block of di
 
 // Rays made ready: structure of arrays.
 struct alignas(64) Block {
-    i32 cell[3][kBlock];
+    i32 cell[3][kBlock]; // that the ray starts in
+    i32 now[3][kBlock];  // where it is, relative to that
     float at[3][kBlock], dir[3][kBlock];
     float t_max[kBlock];
-    u32 id[kBlock];
+    u32 id[kBlock], axis[kBlock], looked[kBlock];
     u32 next = 0, count = 0;
 };
 
@@ -39,19 +41,29 @@ struct alignas(64) Group {
     __m512i id;
     // Between the parts of a step.
     __m512i word, mask, bit; // of the brick; half of its cells; which of them
-    __mmask16 live = 0, fresh = 0, beyond = 0, before = 0;
+    __mmask16 live = 0, beyond = 0, before = 0;
+    __mmask16 fresh = 0;  // stand where they start
+    __mmask16 looked = 0; // what is in the cell lets the ray pass
 };
 
-// Lanes whose ray stopped, to be looked at together.
-struct alignas(64) Stopped {
-    static constexpr u32 kRoom = 256;
-    i32 cell[3][kRoom + kLanes]; // relative to the start, not mirrored
-    u32 id[kRoom + kLanes], axis[kRoom + kLanes];
+// Rays that stopped, to be looked at together; and those that passed, to go on.
+template <u32 Room>
+struct alignas(64) Places {
+    i32 cell[3][Room + kLanes]; // relative to the start, not mirrored
+    u32 id[Room + kLanes], axis[Room + kLanes];
+    float t_max[Room + kLanes];
     u32 count = 0;
 };
+constexpr u32 kStoppedMost = 256;
+using Stopped = Places<kStoppedMost>;
+// New rays are taken when none waits: those that do are no more than are in lanes, made ready and stopped by then.
+using Waiting = Places<kBlock + kGroups * kLanes + kStoppedMost + kLanes>;
 
 VX_HD i32 lane_of(const __m512i& v, u32 lane) {
     return reinterpret_cast<const i32*>(&v)[lane];
+}
+VX_HD float float_of(const __m512& v, u32 lane) {
+    return reinterpret_cast<const float*>(&v)[lane];
 }
 VX_HD void set_lane(__m512i& v, u32 lane, i32 value) {
     reinterpret_cast<i32*>(&v)[lane] = value;
@@ -83,24 +95,36 @@ VX_HD bool out_of(const Range& r, IVec3 c) {
            u32(c.z) - u32(r.least[2]) >= u32(r.size[2]);
 }
 
-// The next rays of the stream that may go by lanes; others are done at once (`alone`).
+VX_HD void put_ray(Block& b, const Ray& ray, u32 id, float t_max) {
+    const u32 n = b.count++;
+    b.cell[0][n] = ray.from.cell.x, b.cell[1][n] = ray.from.cell.y, b.cell[2][n] = ray.from.cell.z;
+    b.at[0][n] = ray.from.at.x, b.at[1][n] = ray.from.at.y, b.at[2][n] = ray.from.at.z;
+    b.dir[0][n] = ray.dir.x, b.dir[1][n] = ray.dir.y, b.dir[2][n] = ray.dir.z;
+    b.now[0][n] = b.now[1][n] = b.now[2][n] = 0;
+    b.t_max[n] = t_max;
+    b.id[n] = id, b.axis[n] = 3, b.looked[n] = 0;
+}
+
+// Rays that wait, then the next of the stream that may go by lanes; others are done at once (`alone`). on_ready(id,
+// t_max) may shorten the way; false: the ray is done.
 template <class OnReady, class Alone>
-VX_HD void make_ready(const Rays& r, u32& from, Block& b, OnReady&& on_ready, Alone&& alone) {
+VX_HD void make_ready(const Rays& r, u32& from, Waiting& waiting, Block& b, OnReady&& on_ready, Alone&& alone) {
     b.next = b.count = 0;
+    while (b.count < kBlock && waiting.count > 0) {
+        const u32 i = --waiting.count, n = b.count;
+        put_ray(b, r.rays[waiting.id[i]], waiting.id[i], waiting.t_max[i]);
+        for (u32 axis = 0; axis < 3; ++axis)
+            b.now[axis][n] = waiting.cell[axis][i];
+        b.axis[n] = waiting.axis[i], b.looked[n] = 1;
+    }
     while (b.count < kBlock && from < r.count) {
         const u32 i = from++;
         if (r.media && r.media[i]) {
             alone(i);
             continue;
         }
-        on_ready(i);
-        const Ray& ray = r.rays[i];
-        const u32 n = b.count++;
-        b.cell[0][n] = ray.from.cell.x, b.cell[1][n] = ray.from.cell.y, b.cell[2][n] = ray.from.cell.z;
-        b.at[0][n] = ray.from.at.x, b.at[1][n] = ray.from.at.y, b.at[2][n] = ray.from.at.z;
-        b.dir[0][n] = ray.dir.x, b.dir[1][n] = ray.dir.y, b.dir[2][n] = ray.dir.z;
-        b.t_max[n] = t_max_of(r, i);
-        b.id[n] = i;
+        float t_max = t_max_of(r, i);
+        if (on_ready(i, t_max)) put_ray(b, r.rays[i], i, t_max);
     }
 }
 
@@ -132,7 +156,8 @@ VX_HD void refill(Group& g, Block& b, const Range& range) {
         g.sign[axis] = _mm512_mask_mov_epi32(g.sign[axis], take, sign);
         g.base[axis] = _mm512_mask_mov_epi32(g.base[axis], take, base);
         g.low[axis] = _mm512_mask_mov_epi32(g.low[axis], take, low);
-        g.a[axis] = _mm512_mask_add_epi32(g.a[axis], take, base, sign);
+        const __m512i now = _mm512_maskz_expandloadu_epi32(take, &b.now[axis][n]);
+        g.a[axis] = _mm512_mask_add_epi32(g.a[axis], take, base, _mm512_xor_si512(now, sign));
         g.at[axis] = _mm512_mask_mov_ps(g.at[axis], take, at);
         g.dir[axis] = _mm512_mask_mov_ps(g.dir[axis], take, speed);
         g.inverse[axis] = _mm512_mask_mov_ps(g.inverse[axis], take, inverse);
@@ -141,14 +166,15 @@ VX_HD void refill(Group& g, Block& b, const Range& range) {
     g.shift = _mm512_mask_mullo_epi32(g.shift, take, octant, _mm512_set1_epi32(3));
     g.t_max = _mm512_mask_expandloadu_ps(g.t_max, take, &b.t_max[n]);
     g.id = _mm512_mask_expandloadu_epi32(g.id, take, &b.id[n]);
-    g.axis = _mm512_mask_mov_epi32(g.axis, take, _mm512_set1_epi32(3));
+    g.axis = _mm512_mask_expandloadu_epi32(g.axis, take, &b.axis[n]);
+    const __m512i looked = _mm512_maskz_expandloadu_epi32(take, &b.looked[n]);
     g.live = __mmask16(g.live | take);
-    g.fresh = __mmask16(g.fresh | take);
+    g.looked = __mmask16(g.looked | _mm512_test_epi32_mask(looked, looked));
+    g.fresh = __mmask16(g.fresh | (take & ~g.looked));
 }
 
 struct Events {
-    __mmask16 stopped = 0; // in a cell that stops the ray
-    __mmask16 inside = 0;  // starts in such a cell
+    __mmask16 stopped = 0; // in a cell that stops the ray, or starts in such a one
     __mmask16 gone = 0;    // nothing more comes
     __mmask16 before = 0;  // starts outside of the range
     __mmask16 unsure = 0;  // this step is to be made by scalar code
@@ -201,9 +227,9 @@ VX_HD Events step(Group& g) {
     const __mmask16 filled = _mm512_movepi32_mask(word);
     const __mmask16 set =
         _mm512_mask_test_epi32_mask(filled, _mm512_srlv_epi32(g.mask, bits(g.bit, 31)), _mm512_set1_epi32(1));
-    e.inside = __mmask16(set & g.fresh);
-    e.stopped = __mmask16(set & ~g.fresh);
+    e.stopped = __mmask16(set & ~g.looked);
     g.fresh = __mmask16(g.fresh & ~on);
+    g.looked = __mmask16(g.looked & ~on);
     __m512i cell[3];
 
     // The box to leave: a cell, or a cube of empty bricks.
@@ -230,7 +256,7 @@ VX_HD Events step(Group& g) {
 
     // Where the ray is then, on the other axes.
     const __m512 near = _mm512_mul_ps(_mm512_add_ps(first, _mm512_set1_ps(1)), _mm512_set1_ps(kNearPlane));
-    const __mmask16 moving = __mmask16(on & ~e.stopped & ~e.inside);
+    const __mmask16 moving = __mmask16(on & ~e.stopped);
     for (u32 axis = 0; axis < 3; ++axis) {
         const __m512 pos = _mm512_fmadd_ps(g.dir[axis], first, g.at[axis]);
         const __m512 off = _mm512_reduce_ps(pos, 0); // from the nearest integer
@@ -272,8 +298,8 @@ VX_HD bool step_exactly(Group& g, u32 lane, const GridView& grid, const Ray& ray
     return w.t < double(t_max);
 }
 
-// Runs rays by lanes, whose results say "nothing" beforehand. stopped(id, cell relative to the start, axis): a cell
-// stops the ray; ready(id): a ray is taken; alone(id): it is not for lanes.
+// Runs rays by lanes, whose results say "nothing" beforehand. on_stopped(id, cell relative to the start, axis (3: the
+// ray starts there), t_max): a cell may stop the ray; false: it goes on. on_ready, alone: of make_ready.
 template <class OnStopped, class OnReady, class Alone>
 VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnReady&& on_ready, Alone&& alone) {
     const Range range{{grid.least.x * 16, grid.least.y * 16, grid.least.z * 16},
@@ -282,13 +308,18 @@ VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnRe
         size{range.size[0], range.size[1], range.size[2]};
     Block block;
     Stopped stopped;
+    Waiting waiting;
     Group groups[kGroups];
     for (Group& g : groups)
         __builtin_memset(static_cast<void*>(&g), 0, sizeof g);
     const auto look = [&] {
         for (u32 i = 0; i < stopped.count; ++i) {
             const i32 cell[3] = {stopped.cell[0][i], stopped.cell[1][i], stopped.cell[2][i]};
-            on_stopped(stopped.id[i], cell, stopped.axis[i]);
+            if (on_stopped(stopped.id[i], cell, stopped.axis[i], stopped.t_max[i])) continue;
+            const u32 n = waiting.count++;
+            for (u32 axis = 0; axis < 3; ++axis)
+                waiting.cell[axis][n] = cell[axis];
+            waiting.id[n] = stopped.id[i], waiting.axis[n] = stopped.axis[i], waiting.t_max[n] = stopped.t_max[i];
         }
         stopped.count = 0;
     };
@@ -297,18 +328,22 @@ VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnRe
         u32 live = 0;
         for (Group& g : groups) {
             if (kLanes - u32(__builtin_popcount(g.live)) >= kRefillFrom) {
-                if (block.next == block.count) make_ready(r, from, block, on_ready, alone);
+                if (block.next == block.count) make_ready(r, from, waiting, block, on_ready, alone);
                 if (block.next != block.count) refill(g, block, range);
             }
             live |= g.live;
             load_words(g, grid, range);
         }
-        if (live == 0) break;
+        if (live == 0) {
+            if (stopped.count == 0) break;
+            look();
+            continue;
+        }
         for (Group& g : groups)
             load_masks(g, grid);
         for (Group& g : groups) {
             const Events e = step(g);
-            __mmask16 ended = __mmask16(e.gone | e.stopped | e.inside);
+            __mmask16 ended = __mmask16(e.gone | e.stopped);
             if (e.stopped) {
                 const u32 n = stopped.count;
                 for (u32 axis = 0; axis < 3; ++axis)
@@ -318,15 +353,14 @@ VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnRe
                             e.stopped, _mm512_xor_si512(_mm512_sub_epi32(g.a[axis], g.base[axis]), g.sign[axis])));
                 _mm512_storeu_si512(&stopped.id[n], _mm512_maskz_compress_epi32(e.stopped, g.id));
                 _mm512_storeu_si512(&stopped.axis[n], _mm512_maskz_compress_epi32(e.stopped, g.axis));
+                _mm512_storeu_ps(&stopped.t_max[n], _mm512_maskz_compress_ps(e.stopped, g.t_max));
                 stopped.count += u32(__builtin_popcount(e.stopped));
-                if (stopped.count > Stopped::kRoom) look();
+                if (stopped.count > kStoppedMost) look();
             }
-            if (__builtin_expect(e.inside | e.unsure | e.before, 0)) {
-                for (u32 m = e.inside; m; m &= m - 1)
-                    alone(u32(lane_of(g.id, u32(__builtin_ctz(m)))));
+            if (__builtin_expect(e.unsure | e.before, 0)) {
                 for (u32 m = e.unsure; m; m &= m - 1) {
-                    const u32 lane = u32(__builtin_ctz(m)), id = u32(lane_of(g.id, lane));
-                    if (!step_exactly(g, lane, grid, r.rays[id], t_max_of(r, id)))
+                    const u32 lane = u32(__builtin_ctz(m));
+                    if (!step_exactly(g, lane, grid, r.rays[lane_of(g.id, lane)], float_of(g.t_max, lane)))
                         ended = __mmask16(ended | 1u << lane);
                 }
                 for (u32 m = e.before; m; m &= m - 1) {
@@ -334,7 +368,7 @@ VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnRe
                     Walk w = walk_of(g, lane, r.rays[id]);
                     bool comes = true;
                     while (comes && out_of(range, w.cell()))
-                        comes = approach(least, size, r.rays[id], w) && w.t < double(t_max_of(r, id));
+                        comes = approach(least, size, r.rays[id], w) && w.t < double(float_of(g.t_max, lane));
                     g.fresh = __mmask16(g.fresh & ~(1u << lane));
                     put_walk(g, lane, w);
                     if (!comes) ended = __mmask16(ended | 1u << lane);
@@ -343,60 +377,92 @@ VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnRe
             g.live = __mmask16(g.live & ~ended);
         }
     }
-    look();
 }
 
 // A lane's place in the scalar walk.
 VX_HD Walk stopped_walk(const Ray& ray, const i32* cell, u32 axis) {
     Walk w = start_walk(ray);
+    if (axis == 3) return w;
     w.x = cell[0], w.y = cell[1], w.z = cell[2], w.axis = axis;
     const bool up = w.up >> axis & 1;
     w.t = axis == 0 ? plane_x(w, w.x + !up) : axis == 1 ? plane_y(w, w.y + !up) : plane_z(w, w.z + !up);
     return w;
 }
 
+// What a ray through air meets in the cell where it stopped. A call: cubes, the most, need none of it.
+__attribute__((noinline)) bool meet_stop(const SceneView& s, const Ray& ray, const Walk& w, float t_max, Hit& hit) {
+    if (w.axis == 3 && !looks_in(s, w.cell())) return false;
+    CellProgress progress;
+    u32 behind;
+    Hit met;
+    if (!meet_cell(s, ray, w, 0, t_max, progress, met, behind)) return false;
+    hit = met;
+    return true;
+}
+__attribute__((noinline)) bool light_stop(const SceneView& s, const Ray& ray, const i32* cell, u32 axis, float t_max,
+                                          Lit& lit) {
+    Hit met;
+    if (!meet_stop(s, ray, stopped_walk(ray, cell, axis), t_max, met)) return false;
+    lit = lit_behind(s, met);
+    return true;
+}
+__attribute__((noinline)) void trace_alone(const SceneView& s, const Rays& r, u32 i, Hit* hits) {
+    trace_one(s, r, i, hits);
+}
+__attribute__((noinline)) void shadow_alone(const SceneView& s, const Rays& r, u32 i, Lit* lit) {
+    shadow_one(s, r, i, lit);
+}
+__attribute__((noinline)) bool boxes_before(const SceneView& s, const Ray& ray, float t_max, bool any, Hit& hit) {
+    return meet_boxes(s, ray, t_max, any, hit);
+}
+
 } // namespace
 
 void trace_avx512(const SceneView& s, const Rays& r, Hit* hits) {
-    if (s.box_count != 0) { // few: their boxes are asked ray by ray
-        for (u32 i = 0; i < r.count; ++i)
-            trace_one(s, r, i, hits);
-        return;
-    }
     run(
         s.grid, r,
-        [&](u32 id, const i32* cell, u32 axis) {
+        [&](u32 id, const i32* cell, u32 axis, float t_max) {
             const Ray& ray = r.rays[id];
-            Walk w = stopped_walk(ray, cell, axis);
+            const Walk w = stopped_walk(ray, cell, axis);
             const u32 state = state_at(s.grid, w.cell());
-            if (s.states[state].kind == CellKind::cube) {
+            if (s.states[state].kind == CellKind::cube && axis != 3) {
                 face_hit(hits[id], w.t, w.cell(), state, w.face(), false);
-                return;
+                return true;
             }
-            hits[id] = Hit{};
-            closest_from(s, ray, w, true, t_max_of(r, id), 0, false, hits[id]);
+            return meet_stop(s, ray, w, t_max, hits[id]);
         },
-        [&](u32 id) { hits[id] = Hit{}; }, [&](u32 id) { trace_one(s, r, id, hits); });
+        [&](u32 id, float& t_max) {
+            hits[id] = Hit{};
+            if (s.box_count != 0 && boxes_before(s, r.rays[id], t_max, false, hits[id])) t_max = hits[id].t;
+            return true;
+        },
+        [&](u32 id) { trace_alone(s, r, id, hits); });
 }
 
 void shadow_avx512(const SceneView& s, const Rays& r, Lit* lit) {
-    if (s.box_count != 0) {
-        for (u32 i = 0; i < r.count; ++i)
-            shadow_one(s, r, i, lit);
-        return;
-    }
     run(
         s.grid, r,
-        [&](u32 id, const i32* cell, u32) {
-            const IVec3 start = r.rays[id].from.cell;
+        [&](u32 id, const i32* cell, u32 axis, float t_max) {
+            const Ray& ray = r.rays[id];
+            const IVec3 start = ray.from.cell;
             const IVec3 at{i32(u32(start.x) + u32(cell[0])), i32(u32(start.y) + u32(cell[1])),
                            i32(u32(start.z) + u32(cell[2]))};
-            if (s.states[state_at(s.grid, at)].kind == CellKind::cube)
+            if (s.states[state_at(s.grid, at)].kind == CellKind::cube && axis != 3) {
                 lit[id] = Lit::shadow;
-            else
-                shadow_one(s, r, id, lit);
+                return true;
+            }
+            return light_stop(s, ray, cell, axis, t_max, lit[id]);
         },
-        [&](u32 id) { lit[id] = Lit::open; }, [&](u32 id) { shadow_one(s, r, id, lit); });
+        [&](u32 id, float& t_max) {
+            bool dark = false;
+            if (s.box_count != 0) {
+                Hit box;
+                dark = boxes_before(s, r.rays[id], t_max, true, box);
+            }
+            lit[id] = dark ? Lit::shadow : Lit::open;
+            return !dark;
+        },
+        [&](u32 id) { shadow_alone(s, r, id, lit); });
 }
 
 } // namespace vitrail::trace::stream

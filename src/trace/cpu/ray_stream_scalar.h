@@ -24,9 +24,23 @@ VX_HD void trace_one(const SceneView& s, const Rays& r, u32 i, Hit* hits) {
     closest_hit(s, r.rays[i], t_max_of(r, i), medium_of(r, i), hits[i]);
 }
 
+VX_HD bool is_leaf(const SceneView& s, const Hit& hit) {
+    if (hit.kind == HitKind::quad && hit.quad != kLiquidSurface)
+        return (s.quads[hit.quad].look >> 16 & 15) == u32(Optics::leaf);
+    const StateRecord& r = s.states[hit.state];
+    return r.kind != CellKind::model && r.optics == u8(Optics::leaf);
+}
+// What a light ray's first hit does to it. Leaves let light through, but none of it straight.
+VX_HD Lit lit_behind(const SceneView& s, const Hit& hit) {
+    return passes_light(s, hit) && !is_leaf(s, hit) ? Lit::panes : Lit::shadow;
+}
+
 VX_HD void shadow_one(const SceneView& s, const Rays& r, u32 i, Lit* lit) {
     bool pane = false;
-    const bool dark = shadowed(s, r.rays[i], t_max_of(r, i), medium_of(r, i), [&](const Hit&) { return pane = true; });
+    const bool dark = shadowed(s, r.rays[i], t_max_of(r, i), medium_of(r, i), [&](const Hit& hit) {
+        pane = !is_leaf(s, hit);
+        return true;
+    });
     lit[i] = pane ? Lit::panes : dark ? Lit::shadow : Lit::open;
 }
 
