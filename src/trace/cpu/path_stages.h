@@ -129,6 +129,88 @@ void start_paths(const PathFrame& f, const PathStart* starts, u32 count, PixelSa
     a.alive = settings.events_most > 0 ? count : 0;
 }
 
+// Light rays of a block of paths, and surfaces for which lamps are still to be chosen.
+struct LightSender {
+    const PathArrays& a;
+    u32& lights;
+    struct Waiting {
+        Event event;
+        PathState state; // as it was at the event
+        Vec2 u;
+        u32 path;
+    };
+    Waiting* waiting; // kBlock
+    struct alignas(64) Choices {
+        float place[3][kBlock], normal[3][kBlock], choose[kBlock], chance[kBlock];
+        u32 node[kBlock], open[kBlock]; // open: not at a leaf yet
+    };
+    Choices& choices;
+    u32 path = 0, count = 0;
+
+    VX_HD void operator()(const LightRay& to) {
+        a.light_rays[lights] = to.ray;
+        a.light_reach[lights] = light_reach(to.distance);
+        a.light_media[lights] = u8(to.medium);
+        a.carried[lights] = {to.value, to.distance, path, to.counts};
+        ++lights;
+    }
+    VX_HD void later(const Event& e, const PathState& state, float which, Vec2 u) {
+        const u32 i = count++;
+        waiting[i] = {e, state, u, path};
+        choices.choose[i] = which;
+    }
+};
+
+// As choose_emitter, many at once: all go down the tree together.
+VX_HD void choose_emitters(const LightView& lights, u32 count, LightSender::Choices& choices) {
+    const LightView l = lights; // in this function's hands, as below
+    float *const px = choices.place[0], *const py = choices.place[1], *const pz = choices.place[2];
+    float *const nx = choices.normal[0], *const ny = choices.normal[1], *const nz = choices.normal[2];
+    float *const choose = choices.choose, *const chance = choices.chance;
+    u32 *const node = choices.node, *const open = choices.open;
+    u32 any = !is_leaf(l.nodes[0]);
+    for (u32 i = 0; i < count; ++i)
+        node[i] = 0, chance[i] = 1, open[i] = any;
+    while (any != 0) {
+        VX_ROW for (u32 i = 0; i < count; ++i) {
+            if (open[i] != 0) {
+                u32 at = node[i];
+                float left = choose[i], sofar = chance[i];
+                choose_child(l, {px[i], py[i], pz[i]}, {nx[i], ny[i], nz[i]}, at, left, sofar);
+                node[i] = at, choose[i] = left, chance[i] = sofar;
+                open[i] = sofar > 0 && !is_leaf(l.nodes[at]);
+            }
+        }
+        any = 0;
+        for (u32 i = 0; i < count; ++i)
+            any |= open[i];
+    }
+}
+
+// A call, as lamps are seldom: what follows the choice.
+VX_COLD void aim_lamps(const PathFrame& f, LightSender& send) {
+    const SceneView& scene = *f.scene;
+    LightSender::Choices& c = send.choices;
+    for (u32 i = 0; i < send.count; ++i) {
+        const Vec3 p = light_place(scene.lights, send.waiting[i].event.p.at), n = send.waiting[i].event.side;
+        c.place[0][i] = p.x, c.place[1][i] = p.y, c.place[2][i] = p.z;
+        c.normal[0][i] = n.x, c.normal[1][i] = n.y, c.normal[2][i] = n.z;
+    }
+    choose_emitters(scene.lights, send.count, c);
+    for (u32 i = 0; i < send.count; ++i) {
+        if (!(c.chance[i] > 0)) continue;
+        const LightSender::Waiting& w = send.waiting[i];
+        EmitterSample found;
+        LightRay to;
+        send.path = w.path;
+        if (sample_chosen(scene, w.event.p.at, w.event.side, scene.lights.nodes[c.node[i]].first, c.choose[i],
+                          c.chance[i], w.u, found) &&
+            aim_light(scene, *f.sky, true, found, w.u, w.event, w.state, to))
+            send(to);
+    }
+    send.count = 0;
+}
+
 template <int Tag>
 void meet_events(const PathFrame& f, PixelSample* sums, PathArrays& arrays) {
     const PathArrays a = arrays;
@@ -136,6 +218,9 @@ void meet_events(const PathFrame& f, PixelSample* sums, PathArrays& arrays) {
     const u32 usual = f.scene->lights.count > 0 ? 6 : 4; // direction, sun, lamp, roulette
     BlockDraws draws;
     u32 on = 0, lights = 0;
+    LightSender::Waiting waiting[kBlock];
+    LightSender::Choices choices;
+    LightSender send{a, lights, waiting, choices};
     for (u32 from = 0; from < a.alive; from += kBlock) {
         const u32 end = a.alive - from < kBlock ? a.alive : from + kBlock;
         u32 lanes = 0;
@@ -151,15 +236,8 @@ void meet_events(const PathFrame& f, PixelSample* sums, PathArrays& arrays) {
         const u32 ahead = any_sharp ? kAheadMost : usual; // what floats in air takes three more
         make_draws(draws, lanes, ahead);
         for (u32 i = from; i < end; ++i) {
-            const u32 path = a.live[i];
+            const u32 path = send.path = a.live[i];
             PathState& p = a.paths[path];
-            const auto send = [&](const LightRay& to) {
-                a.light_rays[lights] = to.ray;
-                a.light_reach[lights] = light_reach(to.distance);
-                a.light_media[lights] = u8(to.medium);
-                a.carried[lights] = {to.value, to.distance, path, to.counts};
-                ++lights;
-            };
             const bool none = a.hits[i].kind == HitKind::nothing && !p.sharp;
             DrawsAhead own{p.sampler, draws, none ? 0u : lane_of[i - from], none ? 0 : ahead};
             if (!path_event(*f.scene, *f.sky, *f.settings, pixel, a.hits[i], p, own, sums[path], send)) continue;
@@ -168,6 +246,7 @@ void meet_events(const PathFrame& f, PixelSample* sums, PathArrays& arrays) {
             a.media[on] = u8(p.medium);
             ++on;
         }
+        if (send.count > 0) aim_lamps(f, send);
     }
     arrays.alive = on, arrays.lights = lights;
 }

@@ -15,20 +15,35 @@ VX_HD Vec3 light_place(const LightView& l, Place p) {
     return offset({l.from, {}}, p);
 }
 
+// LightNode::shares, leaf and pad as two words: bytes one by one cost more than the rest of the node.
+VX_HD u32 share_words(const LightNode& n, u32 number) {
+    u32 word;
+    __builtin_memcpy(&word, n.shares + 4 * number, sizeof word);
+    return word;
+}
+VX_HD bool is_leaf(const LightNode& n) {
+    return (share_words(n, 1) >> 16 & 255) != 0;
+}
+
 // p: light_place. normal: unit, of the surface there; 0 where light is taken from all sides.
 VX_HD float light_importance(const LightNode& n, Vec3 p, Vec3 normal) {
-    const Vec3 half = (n.most - n.least) * 0.5f, way = (n.most + n.least) * 0.5f - p;
-    const float r2 = dot(half, half), d2 = dot(way, way);
+    // Numbers one by one: loops over many places become vectors so.
+    const float hx = (n.most.x - n.least.x) * 0.5f, hy = (n.most.y - n.least.y) * 0.5f,
+                hz = (n.most.z - n.least.z) * 0.5f;
+    const float wx = (n.most.x + n.least.x) * 0.5f - p.x, wy = (n.most.y + n.least.y) * 0.5f - p.y,
+                wz = (n.most.z + n.least.z) * 0.5f - p.z;
+    const float r2 = hx * hx + hy * hy + hz * hz, d2 = wx * wx + wy * wy + wz * wz;
+    const u32 words[2] = {share_words(n, 0), share_words(n, 1)};
+    const auto share = [&words](u32 face) { return float(i32(words[face >> 2] >> 8 * (face & 3) & 255)); };
     // Cosine at the emitters: a face that looks along +x gives something only if some of its box lies below p in x.
-    const float px = half.x - way.x, nx = half.x + way.x, py = half.y - way.y, ny = half.y + way.y, pz = half.z - way.z,
-                nz = half.z + way.z;
+    const float px = hx - wx, nx = hx + wx, py = hy - wy, ny = hy + wy, pz = hz - wz, nz = hz + wz;
     float facing = 0;
-    if (px > 0) facing += px * float(n.shares[1]);
-    if (nx > 0) facing += nx * float(n.shares[0]);
-    if (py > 0) facing += py * float(n.shares[3]);
-    if (ny > 0) facing += ny * float(n.shares[2]);
-    if (pz > 0) facing += pz * float(n.shares[5]);
-    if (nz > 0) facing += nz * float(n.shares[4]);
+    if (px > 0) facing += px * share(1);
+    if (nx > 0) facing += nx * share(0);
+    if (py > 0) facing += py * share(3);
+    if (ny > 0) facing += ny * share(2);
+    if (pz > 0) facing += pz * share(5);
+    if (nz > 0) facing += nz * share(4);
     // No nearer than the box's half diagonal, and never nearer than what keeps this finite for a single flat face.
     float near2 = d2 > r2 ? d2 : r2;
     near2 = near2 > 0.01f ? near2 : 0.01f;
@@ -38,8 +53,8 @@ VX_HD float light_importance(const LightNode& n, Vec3 p, Vec3 normal) {
 
     float cosine = 1;
     if (normal.x != 0 || normal.y != 0 || normal.z != 0) {
-        const float reach = std::fabs(normal.x) * half.x + std::fabs(normal.y) * half.y + std::fabs(normal.z) * half.z;
-        const float along = dot(normal, way);
+        const float reach = std::fabs(normal.x) * hx + std::fabs(normal.y) * hy + std::fabs(normal.z) * hz;
+        const float along = normal.x * wx + normal.y * wy + normal.z * wz;
         if (along + reach <= 0) return 0;
         if (d2 > r2) {
             const float c = along * inverse, sin2_box = r2 * inverse * inverse, cos_box = std::sqrt(1 - sin2_box);
@@ -53,31 +68,27 @@ VX_HD float light_importance(const LightNode& n, Vec3 p, Vec3 normal) {
     return n.power * facing * cosine / near2;
 }
 
+// From an inner node to one of its children. chance: of all choices so far; 0: neither child gives anything.
+VX_HD void choose_child(const LightView& l, Vec3 p, Vec3 normal, u32& at, float& choose, float& chance) {
+    const u32 left = l.nodes[at].first;
+    const float a = light_importance(l.nodes[left], p, normal), b = light_importance(l.nodes[left + 1], p, normal);
+    const float sum = a + b, share = a / sum;
+    const bool first = choose < share;
+    choose = first ? choose / share : (choose - share) / (1 - share);
+    choose = choose < 0.99999994f ? choose : 0.99999994f;
+    chance = sum > 0 ? chance * ((first ? a : b) / sum) : 0.0f;
+    at = first ? left : left + 1;
+}
+
 // choose: 0 <= choose < 1; what is left of it is uniform again. chance: 0 where none is chosen (kNoEmitter).
 VX_HD u32 choose_emitter(const LightView& l, Vec3 p, Vec3 normal, float& choose, float& chance) {
     chance = 0;
     if (l.count == 0) return kNoEmitter;
     u32 at = 0;
-    float sofar = 1;
-    while (!l.nodes[at].leaf) {
-        const u32 left = l.nodes[at].first;
-        const float a = light_importance(l.nodes[left], p, normal), b = light_importance(l.nodes[left + 1], p, normal);
-        const float sum = a + b;
-        if (!(sum > 0)) return kNoEmitter;
-        const float share = a / sum;
-        if (choose < share) {
-            choose /= share;
-            sofar *= share;
-            at = left;
-        } else {
-            choose = (choose - share) / (1 - share);
-            sofar *= b / sum;
-            at = left + 1;
-        }
-        choose = choose < 0.99999994f ? choose : 0.99999994f;
-    }
-    chance = sofar;
-    return sofar > 0 ? l.nodes[at].first : kNoEmitter;
+    chance = 1;
+    while (chance > 0 && !is_leaf(l.nodes[at]))
+        choose_child(l, p, normal, at, choose, chance);
+    return chance > 0 ? l.nodes[at].first : kNoEmitter;
 }
 
 // The chance that choose_emitter chooses this one.

@@ -101,11 +101,11 @@ VX_HD SphericalRect rect_of_face(u32 face, Vec3 q) {
     return r;
 }
 
-// choose: 0..1, which lamp and piece of it; u: where on it. False: none (pdf 0).
-VX_HD_CALL bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float choose, Vec2 u, EmitterSample& out) {
+// A point of an emitter that choose_emitter has chosen: choose and chance as it left them; u: where on it. False: none
+// (pdf 0).
+VX_HD_CALL bool sample_chosen(const SceneView& s, Place at, Vec3 normal, u32 emitter, float choose, float chance,
+                              Vec2 u, EmitterSample& out) {
     out.pdf = 0;
-    float chance;
-    const u32 emitter = choose_emitter(s.lights, light_place(s.lights, at), normal, choose, chance);
     if (emitter == kNoEmitter) return false;
     const EmitterView v = view_of_emitter(s, emitter, at, normal);
     const float sum = weight_of_pieces(s, v);
@@ -177,6 +177,13 @@ VX_HD_CALL bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float 
     out.hit.t = out.distance;
     out.pdf = chance * (weight / sum) * (even > 0 ? even : d2 / (cosine * area));
     return true;
+}
+
+// choose: 0..1, which lamp and piece of it.
+VX_HD bool sample_emitter(const SceneView& s, Place at, Vec3 normal, float choose, Vec2 u, EmitterSample& out) {
+    float chance;
+    const u32 emitter = choose_emitter(s.lights, light_place(s.lights, at), normal, choose, chance);
+    return sample_chosen(s, at, normal, emitter, choose, chance, u, out);
 }
 
 // Density of directions with which sample_emitter finds this hit from `at`. facing: geometric normal there.

@@ -118,27 +118,22 @@ VX_HD void note_guides(const SurfacePoint& p, const PathState& path, PixelSample
     sum.surface = p.surface;
 }
 
-// From the surface straight to the sun or to a lamp. False: nothing comes from there.
-template <class Draws>
-VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, const Event& e, const PathState& path,
-                     Draws& draws, LightRay& out) {
+// From the surface straight to the sun, by u, or to a point that was found of a lamp. False: nothing comes from there.
+VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, const EmitterSample& found, Vec2 u,
+                     const Event& e, const PathState& path, LightRay& out) {
     const SurfacePoint& p = e.p;
-    const Vec3 to_eye = -path.ray.dir;
     out.ray.from = p.at;
     out.medium = path.medium;
     float pdf;
-    EmitterSample found;
     if (!lamp) {
-        const SunSample sun = sample_sun(sky, next_2d(draws));
+        const SunSample sun = sample_sun(sky, u);
         out.ray.dir = sun.dir, pdf = sun.pdf, out.value = sun.radiance;
     } else {
-        const float which = next_1d(draws);
-        if (!find_lamp(scene, p.at, e.side, which, next_2d(draws), found)) return false;
         out.ray.dir = found.dir, pdf = found.pdf, out.distance = found.distance;
     }
     const bool behind = dot(p.face, out.ray.dir) < 0;
     if (behind && e.own_side) return false;
-    const BsdfValue v = bsdf_at(p, to_eye, out.ray.dir);
+    const BsdfValue v = bsdf_at(p, -path.ray.dir, out.ray.dir);
     if (!(greatest(v.value) > 0)) return false;
     if (behind && (p.optics == Optics::leaf || p.optics == Optics::dielectric))
         out.ray.from = other_side(p), out.medium = p.medium_behind;
@@ -146,7 +141,7 @@ VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, cons
     const float painted = p.optics == Optics::thin ? 1 / p.opacity : 1.0f;
     out.value = out.value * v.value * path.carried * (painted * power_heuristic(pdf, v.pdf) / pdf);
     out.counts = path.bounces > 0 ? LightRay::Counts::indirect : LightRay::Counts::direct;
-    return true;
+    return greatest(out.value) > 0;
 }
 
 // From a floating speck.
@@ -195,8 +190,10 @@ VX_HD bool go_on(const PathSettings& settings, const Event& e, PathState& path, 
 
 // hit: of path.ray, as closest_hit tells. pixel: blocks that a pixel is wide at distance 1. sum: of the path, see
 // finish_path; send(const LightRay&) is called for each ray to a light, at most three; what arrives belongs into `sum`
-// before the next event's. draws: path.sampler, or something that next_1d and next_2d give the same numbers of. True:
-// path.ray is to be traced, and its hit to be told.
+// before the next event's. Where send has later(const Event&, const PathState&, float which, Vec2 u), that is called
+// instead of choosing a lamp: who has many to choose does it then, as below (find_lamp, aim_light). draws:
+// path.sampler, or something that next_1d and next_2d give the same numbers of. True: path.ray is to be traced, and its
+// hit to be told.
 template <class Draws, class Send>
 VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSettings& settings, float pixel,
                       const Hit& hit, PathState& path, Draws& draws, PixelSample& sum, Send&& send) {
@@ -251,11 +248,24 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
     for (u32 k = 0; k < 3; ++k) {
         LightRay to;
         bool sent = false;
-        if (k == 2)
-            sent = floating.scatters && aim_from_air(scene, sky, any_lamp, floating, path, draws, to);
-        else if (e.samples_light && (k == 0 ? any_sun : any_lamp))
-            sent = aim_light(scene, sky, k == 1, e, path, draws, to);
-        if (sent && greatest(to.value) > 0) send(static_cast<const LightRay&>(to));
+        if (k == 2) {
+            sent = floating.scatters && aim_from_air(scene, sky, any_lamp, floating, path, draws, to) &&
+                   greatest(to.value) > 0;
+        } else if (e.samples_light && (k == 0 ? any_sun : any_lamp)) {
+            const float which = k == 0 ? 0 : next_1d(draws);
+            const Vec2 u = next_2d(draws);
+            EmitterSample found;
+            if constexpr (requires { send.later(e, path, which, u); }) {
+                if (k == 1) {
+                    send.later(e, path, which, u);
+                    continue;
+                }
+            } else if (k == 1 && !find_lamp(scene, e.p.at, e.side, which, u, found)) {
+                continue;
+            }
+            sent = aim_light(scene, sky, k == 1, found, u, e, path, to);
+        }
+        if (sent) send(static_cast<const LightRay&>(to));
     }
     return met && greatest(e.next.weight) > 0 && go_on(settings, e, path, draws);
 }
