@@ -85,8 +85,10 @@ void wrong_hits(bench::Context& c) {
     c.report(double(wrong));
 }
 
-bench::TracedLand* traced_land(bench::Context& c) {
-    static auto land = bench::TracedLand::open({.device = Device::cuda});
+bench::TracedLand* traced_land(bench::Context& c, bool stages = false) {
+    static auto plain = bench::TracedLand::open({.device = Device::cuda});
+    static auto told = bench::TracedLand::open({.device = Device::cuda, .stages = true});
+    auto& land = stages ? told : plain;
     if (land) return land->get();
     c.skip(land.error().message);
     return nullptr;
@@ -119,6 +121,21 @@ void frames(bench::Context& c, Part part, bool half) {
     }
 }
 
+// Milliseconds of a frame that the launches take whose stage is called so.
+void stage(bench::Context& c, std::string_view name) {
+    bench::TracedLand* land = traced_land(c, true);
+    if (!land) return;
+    float step = 0;
+    for (int i = -3; i < kLaunches; ++i) {
+        const scene::FrameView frame = land->frame(kWidth, kHeight, step += 0.1f);
+        if (const auto done = land->tracer->render(frame, {}); !done) return c.skip(done.error().message);
+        double ms = 0;
+        for (const TraceStage& s : land->tracer->stats().stages)
+            if (s.name.starts_with(name)) ms += s.ms;
+        if (i >= 0) c.report(ms);
+    }
+}
+
 } // namespace
 
 void register_cuda_benches(bench::Suite& suite) {
@@ -134,6 +151,9 @@ void register_cuda_benches(bench::Suite& suite) {
     suite.add("frame.cuda.trace", "ms", "of that: paths", [](bench::Context& c) { frames(c, Part::trace, false); });
     suite.add("frame.cuda.half", "ms", "light for a quarter of the pixels",
               [](bench::Context& c) { frames(c, Part::whole, true); });
+    for (const char* name : {"start", "closest", "sky", "surface", "light", "rest", "finish"})
+        suite.add(std::string("frame.cuda.stage.") + name, "ms", "of that paths: all rounds of these kernels",
+                  [name](bench::Context& c) { stage(c, name); });
 }
 
 } // namespace vitrail

@@ -120,6 +120,7 @@ Result<> run_render(const RenderOptions& wanted) {
         path->traced = traces, path->picture = picture;
         still_options.pose = pose_of(path->path.at(0), still_options.pose.eye.dimension);
     }
+    still_options.trace_stages = !options.stats_file.empty();
     still_options.stop = &stop_on_signals(); // a passing world lies in a folder that must go
     VX_TRY_ASSIGN(const auto still, client::Still::open(still_options, content));
 
@@ -139,6 +140,7 @@ Result<> run_render(const RenderOptions& wanted) {
     if (still_options.trace) {
         const trace::TracerStats& last = still->tracer().stats();
         passes_ms = {{"trace", last.trace_ms}, {"denoise", last.denoise_ms}, {"update", last.update_ms}};
+        for (const trace::TraceStage& s : last.stages) passes_ms["trace " + s.name] = {{"ms", s.ms}, {"items", s.items}};
     } else {
         VX_TRY_ASSIGN(const auto times, still->time_passes(still_options.pose, size.first, size.second, options.time));
         for (const auto& [pass, ms] : times) passes_ms[pass] = ms;

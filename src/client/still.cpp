@@ -56,6 +56,7 @@ Result<std::unique_ptr<Still>> Still::open(const StillOptions& options, const Co
         trace::TracerOptions tracer;
         tracer.device = *options.trace;
         tracer.devices_most = options.trace_devices;
+        tracer.stages = options.trace_stages;
         tracer.pool = still->pool_.get();
         VX_TRY_ASSIGN(still->tracer_, trace::Tracer::create(tracer));
         still->trace_feeder_ = std::make_unique<TraceFeeder>(*still->tracer_);

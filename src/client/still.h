@@ -27,6 +27,7 @@ struct StillOptions {
     std::vector<std::string> packs;          // resource packs, the later over the earlier
     std::optional<trace::Device> trace;      // pictures are traced, on this device; else rasterized
     u32 trace_devices = 1;                   // CUDA: split over so many at most
+    bool trace_stages = false;               // see trace::TracerOptions
     double seconds_most = 600;               // for the world to arrive
     const std::atomic<bool>* stop = nullptr; // where it turns true, opening ends with an error
 };

@@ -35,6 +35,7 @@ struct TracerOptions {
     u32 devices_most = 1;       // CUDA: picture rows are split over so many
     ThreadPool* pool = nullptr; // CPU work; null: the calling thread alone
     u32 window_chunks = 64;     // side of the window, a power of two, 4..128
+    bool stages = false;        // CUDA: tell TracerStats::stages, which costs a little time
 };
 
 // One frame.
@@ -52,6 +53,13 @@ struct TraceSettings {
 
 enum class Layer : u8 { color, albedo, normal, distance, samples };
 
+// Part of a frame's tracing on a device.
+struct TraceStage {
+    std::string name;
+    double ms = 0;
+    u32 items = 0; // paths or rays that it had
+};
+
 struct TracerStats {
     u64 rays = 0, paths = 0;                            // of the last frame: all rays; camera paths
     u64 dropped = 0;                                    // of these: no numbers, or no light; not in the picture
@@ -60,6 +68,7 @@ struct TracerStats {
     u64 host_bytes = 0, device_bytes = 0;
     u32 chunks = 0, emitters = 0;
     std::string device;
+    std::vector<TraceStage> stages; // where it was asked for: of trace_ms on the first device, in order
     bool shown_directly = false; // the last write_texture stayed on the device
 };
 

@@ -133,6 +133,82 @@ TEST(CudaTracer, TheBestDeviceIsOneThatWorks) {
     EXPECT_EQ((*Tracer::create({.device = Device::cpu, .window_chunks = 8}))->device(), Device::cpu);
 }
 
+// Whatever order warps come in.
+TEST(CudaTracer, SameSeedSamePicture) {
+    std::string why;
+    const auto a = cuda_tracer(1, why), b = a ? cuda_tracer(1, why) : nullptr;
+    if (!a || !b) GTEST_SKIP() << why;
+    open_room(*a), open_room(*b);
+    for (const TraceSettings& s : {TraceSettings{.samples = 3, .denoise = false}, TraceSettings{.half = true}}) {
+        a->forget_frames(), b->forget_frames();
+        EXPECT_EQ(look(*a, 3, s).color, look(*b, 3, s).color);
+    }
+}
+
+// More events than the rounds that all paths go together: no scattering at all, and everything by glass and water.
+TEST(CudaTracer, FewRounds) {
+    std::string why;
+    const auto tracer = cuda_tracer(1, why);
+    if (!tracer) GTEST_SKIP() << why;
+    const auto cpu = Tracer::create({.window_chunks = 8}).value();
+    open_room(*tracer), open_room(*cpu);
+    for (Tracer* t : {tracer.get(), cpu.get()}) {
+        auto chunk = room(false);
+        for (i32 i = 0; i < 8 * 6; ++i) // panes behind each other before the eye
+            chunk->blocks.set(LocalPos(5 + i % 8, 2 + i / 8, 6), StateId(base_content().id("glass")));
+        for (i32 i = 0; i < 8 * 6; ++i)
+            chunk->blocks.set(LocalPos(5 + i % 8, 2 + i / 8, 3), StateId(base_content().id("ice")));
+        t->set_chunk({0, 0, 0}, DimensionId{}, chunk, nullptr);
+    }
+    const TraceSettings plain{.samples = 4, .bounces = 1, .denoise = false};
+    const Look a = look(*tracer, 2, plain), b = look(*cpu, 2, plain);
+    expect_alike(a, b, 0.05);
+    EXPECT_NEAR(double(a.stats.rays) / double(b.stats.rays), 1, 0.01);
+}
+
+// A picture that is cut into batches (64 samples of 256 x 160 pixels are more paths than go together) shows what fewer
+// samples show.
+TEST(CudaTracer, Batches) {
+    std::string why;
+    const auto tracer = cuda_tracer(1, why);
+    if (!tracer) GTEST_SKIP() << why;
+    open_room(*tracer);
+    scene::FrameView frame = frame_of();
+    frame.width = 256, frame.height = 160;
+    const auto picture = [&](u32 samples, u32 frames) {
+        tracer->forget_frames();
+        u64 paths = 0;
+        for (u32 i = 0; i < frames; ++i) {
+            EXPECT_TRUE(tracer->render(frame, {.samples = samples, .denoise = false}));
+            paths += tracer->stats().paths;
+        }
+        EXPECT_EQ(paths, u64(256) * 160 * samples * frames);
+        return tracer->read(Layer::color);
+    };
+    const std::vector<float> once = picture(64, 1), often = picture(4, 16);
+    double off = 0, sum = 0;
+    for (std::size_t i = 0; i < once.size(); ++i)
+        off += std::fabs(double(once[i]) - double(often[i])), sum += double(often[i]);
+    EXPECT_LT(off / sum, 1e-4);
+}
+
+TEST(CudaTracer, TellsStages) {
+    auto tracer = Tracer::create({.device = Device::cuda, .window_chunks = 8, .stages = true});
+    if (!tracer) GTEST_SKIP() << tracer.error().message;
+    open_room(**tracer);
+    const Look a = look(**tracer, 1, {});
+    double ms = 0;
+    u64 rays = 0;
+    for (const TraceStage& s : a.stats.stages) {
+        ms += s.ms;
+        if (s.name.starts_with("closest") || s.name.starts_with("light")) rays += s.items;
+        if (s.name == "closest 0") EXPECT_EQ(s.items, kWidth * kHeight);
+    }
+    EXPECT_LE(rays, a.stats.rays);
+    EXPECT_GT(double(rays), 0.5 * double(a.stats.rays));
+    EXPECT_GT(ms, 0);
+}
+
 TEST(CudaTracer, SaysWhyNot) {
     EXPECT_FALSE(cuda_tracer_summary().empty());
     const auto tracer = Tracer::create({.device = Device::cuda});

@@ -6,6 +6,8 @@
 #include "trace/cuda/frame_film.h"
 #include "trace/cuda/gl_share.h"
 #include "trace/cuda/mirror.h"
+#include "trace/cuda/stage_clock.h"
+#include "trace/cuda/wave_memory.h"
 #include "trace/frame_setup.h"
 #include "trace/scene_host.h"
 #include "trace/sky_source.h"
@@ -43,7 +45,8 @@ class CudaTracer final : public Tracer {
 public:
     explicit CudaTracer(const TracerOptions& options)
         : pool_(options.pool)
-        , scene_(options.window_chunks, options.pool) {}
+        , scene_(options.window_chunks, options.pool)
+        , tells_stages_(options.stages) {}
     ~CudaTracer() override {
         for (const Gpu& g : gpus_)
             (void)g.wait();
@@ -57,6 +60,7 @@ public:
         events_.resize(devices);
         counts_.resize(devices);
         means_.resize(devices);
+        waves_.resize(devices);
         for (u32 i = 0; i < devices; ++i) {
             VX_TRY(gpus_[i].open(int(i)));
             VX_TRY(check_kernels());
@@ -76,6 +80,7 @@ public:
         mirror_ = std::make_unique<SceneMirror>(gpus_);
         film_ = std::make_unique<DeviceFilm>(gpus_[0]);
         gl_ = std::make_unique<GlShare>(gpus_[0]);
+        if (tells_stages_) clock_ = std::make_unique<StageClock>(gpus_[0]);
         return mirror_->open();
     }
 
@@ -132,10 +137,13 @@ private:
         DeviceBytes own, gathered; // on its device; on the first
     };
     std::vector<Means> means_;
+    std::vector<DeviceBytes> waves_;
     PinnedBytes host_counts_;
     std::unique_ptr<SceneMirror> mirror_;
     std::unique_ptr<DeviceFilm> film_;
     std::unique_ptr<GlShare> gl_;
+    bool tells_stages_;
+    std::unique_ptr<StageClock> clock_;
     TracerStats stats_;
     u32 frames_ = 0;
 };
@@ -189,21 +197,16 @@ Result<> CudaTracer::trace_bands(std::size_t gpu, PathJob job, const TraceSettin
         VX_TRY(means_[gpu].own.reach(g, bytes));
         job.means = means_[gpu].own.as<SampleMean>();
     }
-    if (!job.frame.half) {
-        launch_paths(job, g.stream);
-    } else {
-        // Pixels that get light together, so that no lane waits for those that want guides alone.
-        job.step = 2;
-        const u32 light_x = job.frame.half_x, light_y = job.frame.half_y;
-        const PathSettings full = job.settings;
-        for (u32 k = 0; k < 4; ++k) {
-            const bool light = (k & 1) == light_x && (k >> 1) == light_y;
-            job.step_x = k & 1, job.step_y = k >> 1;
-            job.settings.bounces = light ? full.bounces : 0;
-            job.samples = light ? settings.samples : 1;
-            launch_paths(job, g.stream);
-        }
+    const WavePlan plan = plan_wave(job);
+    VX_TRY(waves_[gpu].reach(g, wave_bytes(plan)));
+    StageMark mark;
+    if (clock_ && gpu == 0) {
+        clock_->begin();
+        mark = [this](const char* stage, u32 round, const u32* items) {
+            clock_->mark(fmt::format("{} {}", stage, round), items);
+        };
     }
+    launch_paths(job, plan, lay_out_wave(plan, waves_[gpu].as()), mark, g.stream);
     VX_TRY(check(cudaGetLastError(), "tracing"));
     return check(cudaEventRecord(events_[gpu].end, g.stream), "an event");
 }
@@ -263,9 +266,14 @@ Result<> CudaTracer::collect() {
     VX_TRY(gpus_[0].use());
     VX_TRY(check(cudaEventElapsedTime(&ms, events_[0].end, events_[0].filtered), "asking for times"));
     stats_.denoise_ms = double(ms);
+    if (clock_) {
+        VX_TRY_ASSIGN(stats_.stages, clock_->read());
+    }
     stats_.samples = film_->samples();
     stats_.host_bytes = scene_.memory_bytes();
     stats_.device_bytes = mirror_->device_bytes() + film_->bytes();
+    for (std::size_t i = 0; i < gpus_.size(); ++i)
+        stats_.device_bytes += means_[i].own.size() + means_[i].gathered.size() + waves_[i].size();
     stats_.chunks = scene_.chunk_count();
     stats_.emitters = scene_.emitter_count();
     return {};

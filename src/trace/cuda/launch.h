@@ -8,6 +8,8 @@
 #include "trace/kernel/scene_view.h"
 #include "trace/kernel/sky_view.h"
 
+#include <functional>
+
 struct CUstream_st; // cudaStream_t points to it
 
 namespace vitrail::trace::cuda {
@@ -33,7 +35,8 @@ struct PathCounts {
 // Rows of the picture are dealt out to devices in bands of so many.
 inline constexpr u32 kBand = 16;
 
-// Every pixel of the bands `band`, `band + bands`, ... that lies on a lattice: x % step == step_x, y % step == step_y.
+// Every pixel of the bands `band`, `band + bands`, ... of the picture. Where the frame wants light for a quarter of the
+// pixels (FilmFrame::half) the others get one sample without scattering.
 struct PathJob {
     SceneView scene;
     SkyView sky;
@@ -42,14 +45,23 @@ struct PathJob {
     FilmFrame frame;
     u32 samples = 1;
     u32 band = 0, bands = 1;
-    u32 step = 1, step_x = 0, step_y = 0;
     SampleMean* means = nullptr; // instead of the film: row by row, the rows of the bands alone
     PathCounts* counts = nullptr;
 };
-void launch_paths(const PathJob& job, CUstream_st* stream);
+struct Wave;
+struct WavePlan;
+// Called after the launches of a stage. items: of the device, how much they have to do.
+using StageMark = std::function<void(const char* stage, u32 round, const u32* items)>;
+// All of a job's paths; wave_memory.h makes plan and memory. mark: may be empty. Nothing waits for the device.
+void launch_paths(const PathJob& job, const WavePlan& plan, const Wave& wave, const StageMark& mark,
+                  CUstream_st* stream);
 // Means of another device's bands, into the film. The job is that device's, with this device's film.
 void launch_put_means(const PathJob& job, CUstream_st* stream);
-u32 rows_of_bands(u32 height, u32 band, u32 bands);
+// Rows of the bands, whole bands alone: the last one may lie outside of the picture in part.
+inline u32 rows_of_bands(u32 height, u32 band, u32 bands) {
+    const u32 all = (height + kBand - 1) / kBand;
+    return (all > band ? (all - band - 1) / bands + 1 : 0) * kBand;
+}
 
 void launch_film(const FilmPlanes& film, const FilmFrame& frame, const FilmPass& pass, CUstream_st* stream);
 

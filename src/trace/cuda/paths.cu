@@ -1,50 +1,30 @@
-// Paths on a GPU: a thread a pixel, a warp 8 x 4 of them, so that its rays stay together for a while.
-#include "trace/cuda/launch.h"
-#include "trace/kernel/path.h"
-
-#include <cuda_runtime.h>
+// Paths on a GPU: they all begin, go on an event at a time, each kind of work in a kernel of its own whose lanes do the
+// same, and end in the film.
+#include "trace/cuda/warp.cuh"
+#include "trace/cuda/wave_launch.h"
+#include "trace/cuda/wave_memory.h"
+#include "trace/cuda/wave_steps.h"
 
 namespace vitrail::trace::cuda {
 
 namespace {
 
-constexpr u32 kBlockWide = 8, kBlockHigh = 16;
+constexpr u32 kBlock = 128;
 
-// The row of the picture that is the n-th of the bands.
-__host__ __device__ u32 row_of(u32 n, u32 band, u32 bands) {
-    return (n / kBand * bands + band) * kBand + n % kBand;
+__global__ void __launch_bounds__(kBlock) start_kernel(const __grid_constant__ WaveJob j) {
+    const u32 path = blockIdx.x * kBlock + threadIdx.x;
+    if (path < j.pixels * j.job.samples) start_step(j, path, Append{});
 }
 
-// All lanes of the warp call it.
-__device__ void add_count(unsigned long long* to, u32 value) {
-    for (u32 step = 16; step > 0; step /= 2)
-        value += __shfl_xor_sync(~0u, value, int(step));
-    if (value && threadIdx.x % 32 == 0) atomicAdd(to, value);
-}
-
-__global__ void __launch_bounds__(kBlockWide* kBlockHigh) paths_kernel(const __grid_constant__ PathJob j) {
-    const u32 lane = threadIdx.x;
-    const u32 n = blockIdx.y * kBlockHigh + lane / kBlockWide;
-    const u32 x = (blockIdx.x * kBlockWide + lane % kBlockWide) * j.step + j.step_x;
-    // Bands keep their rows together, also where only every second one is wanted.
-    const u32 row = n * j.step + j.step_y, y = row_of(row, j.band, j.bands);
-    // Not in registers, which the paths need.
-    __shared__ __align__(16) u8 shared_means[kBlockWide * kBlockHigh * sizeof(SampleMean)];
-    SampleMean& mean = reinterpret_cast<SampleMean*>(shared_means)[lane];
-    u32 rays = 0, paths = 0, dropped = 0;
-    if (x < j.film.width && y < j.film.height) {
-        mean = SampleMean{};
-        for (u32 s = 0; s < j.samples; ++s)
-            add_sample(mean, trace_path(j.scene, j.sky, j.frame.now, j.settings, x, y, s, rays));
-        paths = j.samples;
-        if (j.means)
-            j.means[u64(row) * j.film.width + x] = mean;
-        else
-            dropped = put_samples(j.film, j.frame, x, y, mean);
-    }
-    add_count(&j.counts->rays, rays);
-    add_count(&j.counts->paths, paths);
-    add_count(&j.counts->dropped, dropped);
+__global__ void __launch_bounds__(kBlock) finish_kernel(const __grid_constant__ WaveJob j) {
+    const u32 pixel = blockIdx.x * kBlock + threadIdx.x;
+    add_count(&j.job.counts->dropped, pixel < j.pixels ? finish_step(j, pixel) : 0);
+    if (pixel > 0) return;
+    u64 rays = 0;
+    for (u32 round = 0; round < j.rounds; ++round)
+        rays += j.wave.rounds[round].rays.n + j.wave.rounds[round].lights.n;
+    j.job.counts->rays += rays; // no other kernel is under way
+    j.job.counts->paths += j.wave.rounds[0].rays.n;
 }
 
 __global__ void put_means_kernel(const __grid_constant__ PathJob j) {
@@ -57,16 +37,32 @@ __global__ void put_means_kernel(const __grid_constant__ PathJob j) {
 
 } // namespace
 
-u32 rows_of_bands(u32 height, u32 band, u32 bands) {
-    const u32 all = (height + kBand - 1) / kBand;
-    return (all > band ? (all - band - 1) / bands + 1 : 0) * kBand;
-}
-
-void launch_paths(const PathJob& job, cudaStream_t stream) {
-    const u32 rows = rows_of_bands(job.film.height, job.band, job.bands) / job.step;
-    const u32 wide = (job.film.width + job.step - 1) / job.step;
-    const dim3 grid((wide + kBlockWide - 1) / kBlockWide, (rows + kBlockHigh - 1) / kBlockHigh);
-    if (rows) paths_kernel<<<grid, kBlockWide * kBlockHigh, 0, stream>>>(job);
+void launch_paths(const PathJob& job, const WavePlan& plan, const Wave& wave, const StageMark& mark,
+                  cudaStream_t stream) {
+    const auto told = [&](const char* stage, u32 round, const WaveRound::Count& items) {
+        if (mark) mark(stage, round, &items.n);
+    };
+    for (u32 k = 0; k < plan.batches(); ++k) {
+        const WaveJob j = wave_batch(job, plan, wave, k);
+        cudaMemsetAsync(wave.rounds, 0, sizeof(WaveRound) * (plan.rounds + 1), stream);
+        start_kernel<<<(j.pixels * job.samples + kBlock - 1) / kBlock, kBlock, 0, stream>>>(j);
+        told("start", k, wave.rounds[0].rays);
+        for (u32 round = 0; round < plan.rounds; ++round) {
+            const WaveRound& now = wave.rounds[round];
+            launch_wave_closest(j, round, stream);
+            told("closest", round, now.rays);
+            launch_skies(j, round, stream);
+            told("sky", round, now.missed);
+            launch_surfaces(j, round, stream);
+            told("surface", round, now.met);
+            launch_wave_lights(j, round, stream);
+            told("light", round, now.lights);
+        }
+        launch_rest(j, stream);
+        told("rest", k, wave.rounds[plan.rounds].rays);
+        finish_kernel<<<(j.pixels + kBlock - 1) / kBlock, kBlock, 0, stream>>>(j);
+        told("finish", k, wave.rounds[0].rays);
+    }
 }
 
 void launch_put_means(const PathJob& job, cudaStream_t stream) {

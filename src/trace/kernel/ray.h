@@ -9,8 +9,8 @@
 #include "math/vec.h"
 
 // Large functions: calls on a GPU, where code has to fit the instruction cache and callers to share registers; inlined
-// on the CPU, as all kernels are.
-#ifdef __CUDACC__
+// on the CPU, as all kernels are. A file of small kernels that call each of them once may have them inlined.
+#if defined(__CUDACC__) && !defined(VITRAIL_INLINE_CALLS)
 #define VX_HD_CALL inline __host__ __device__ __noinline__
 #else
 #define VX_HD_CALL VX_HD
