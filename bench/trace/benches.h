@@ -5,7 +5,7 @@
 
 namespace vitrail {
 
-void register_cuda_benches(bench::Suite& suite);
+void register_trace_cuda_benches(bench::Suite& suite);
 void register_denoise_benches(bench::Suite& suite);
 void register_shade_benches(bench::Suite& suite);
 void register_ray_benches(bench::Suite& suite);

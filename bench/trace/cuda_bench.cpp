@@ -138,7 +138,7 @@ void stage(bench::Context& c, std::string_view name) {
 
 } // namespace
 
-void register_cuda_benches(bench::Suite& suite) {
+void register_trace_cuda_benches(bench::Suite& suite) {
     suite.add("trace.cuda.primary", "Grays/s", "1920x1080, a launch", [](bench::Context& c) { rays(c, 0); });
     suite.add("trace.cuda.bounce1", "Grays/s", "one from each hit", [](bench::Context& c) { rays(c, 1); });
     suite.add("trace.cuda.bounce2", "Grays/s", "and on from there", [](bench::Context& c) { rays(c, 2); });
