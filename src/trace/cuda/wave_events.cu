@@ -10,7 +10,7 @@ namespace {
 
 constexpr u32 kBlock = 128;
 
-__global__ void __launch_bounds__(kBlock, 4) surfaces_kernel(const __grid_constant__ WaveJob j, u32 round) {
+__global__ void __launch_bounds__(kBlock, 2) surfaces_kernel(const __grid_constant__ WaveJob j, u32 round) {
     const u32 count = j.wave.rounds[round].met.n;
     for (u32 i = blockIdx.x * kBlock + threadIdx.x; i < count; i += gridDim.x * kBlock)
         event_step<true>(j, round, j.wave.ends[i], Append{});

@@ -7,7 +7,9 @@ namespace vitrail::trace::cuda {
 
 namespace {
 
-constexpr u32 kBlock = 128, kBlocksAtOnce = 8; // of a multiprocessor: 64 registers a thread, loads hide behind others
+// Of a multiprocessor: 96 registers a thread. With 64 more rays are under way, but what they spill takes longer (measured
+// on an H200, docs/measurements.md).
+constexpr u32 kBlock = 128, kBlocksAtOnce = 5;
 
 __global__ void __launch_bounds__(kBlock, kBlocksAtOnce)
     wave_closest_kernel(const __grid_constant__ WaveJob j, u32 round) {
