@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/hd.h"
+#include "math/exp.h"
 #include "math/vec.h"
 
 namespace vitrail::scene {
@@ -14,12 +15,12 @@ struct Mist {
 
 // Share of the mist's density `above` blocks above the sea's height.
 VX_HD float mist_density(const Mist& mist, float above) {
-    return above > 0 ? std::exp(-above / mist.height) : 1.0f;
+    return above > 0 ? exp_of(-above / mist.height) : 1.0f;
 }
 
 // Mist between the height of the sea and `above`, in blocks of the density there; negative below.
 VX_HD float mist_column(const Mist& mist, float above) {
-    return above < 0 ? above : mist.height * (1 - std::exp(-above / mist.height));
+    return above < 0 ? above : mist.height * (1 - exp_of(-above / mist.height));
 }
 
 // Mean density over `away` blocks along a unit direction that rises by `rise` a block.

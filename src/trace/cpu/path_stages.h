@@ -15,6 +15,16 @@ struct Carried {
     LightRay::Counts counts;
 };
 
+// A surface that a lamp is still to be chosen for.
+struct WaitingLamp {
+    Event event;
+    PathState state; // as it was at the event
+    Vec2 u;
+    u32 path;
+};
+
+inline constexpr u32 kBlock = 64; // paths whose numbers are made and whose lamps are chosen at once
+
 // Room for `most` paths, of which each sends three light rays at most. Rays, media and hits are those of live paths, in
 // the order of `live`; sums and paths stay where they are.
 struct PathArrays {
@@ -28,6 +38,7 @@ struct PathArrays {
     u8* light_media;
     Lit* lit;
     Carried* carried;
+    WaitingLamp* waiting; // kBlock
     u32 alive = 0, lights = 0;
 };
 inline constexpr u32 kLightsAnEvent = 3;
@@ -48,12 +59,13 @@ struct PathStages {
 // ---- Numbers of many paths at once: a path's next draws, made ahead. What is not drawn is lost, what is drawn beyond
 // is made then.
 
-inline constexpr u32 kBlock = 64;     // paths
 inline constexpr u32 kAheadMost = 10; // draws
 
 struct alignas(64) BlockDraws {
     u32 sample[kBlock] = {}, place[kBlock] = {}, frame[kBlock] = {}, pixel[kBlock] = {}, drawn[kBlock] = {};
     float x[kAheadMost][kBlock], y[kAheadMost][kBlock];
+    float above[kBlock] = {}, rise[kBlock] = {}, length[kBlock] = {}; // stretches of air
+    float left[kBlock], t[kBlock], weight[kBlock];
 };
 VX_HD void put_sampler(BlockDraws& b, u32 lane, const Sampler& s) {
     b.sample[lane] = s.sample, b.place[lane] = s.place, b.frame[lane] = s.frame, b.pixel[lane] = s.pixel,
@@ -66,6 +78,16 @@ VX_HD void make_draws(BlockDraws& b, u32 lanes, u32 draws) {
             const Vec2 u = point_of_draw({b.sample[i], b.place[i], b.frame[i], b.pixel[i], 0}, b.drawn[i] + k);
             to_x[i] = u.x, to_y[i] = u.y;
         }
+    }
+}
+
+// By each lane's first draw.
+VX_HD void cross_stretches(const SkyView& sky, BlockDraws& b, u32 lanes) {
+    const SkyView s = sky;
+    VX_ROW for (u32 i = 0; i < lanes; ++i) {
+        AirCrossing air;
+        cross_air(s, b.above[i], b.rise[i], b.length[i], b.x[0][i], air);
+        b.left[i] = air.left, b.t[i] = air.t, b.weight[i] = air.weight;
     }
 }
 
@@ -86,6 +108,13 @@ VX_HD float next_1d(DrawsAhead& d) {
     if (k >= d.count) return trace::next_1d(d.sampler);
     ++d.sampler.drawn;
     return d.block.x[k][d.lane];
+}
+
+VX_HD Stretch first_stretch(const SceneView& scene, const SkyView& sky, const PathState& path, float length,
+                            DrawsAhead& d) {
+    const float u = next_1d(d);
+    if (path.medium != 0) return cross_stretch(scene, sky, path.ray, length, path.medium, u);
+    return stretch_of({d.block.left[d.lane], d.block.t[d.lane], d.block.weight[d.lane]});
 }
 
 // ----
@@ -133,13 +162,6 @@ void start_paths(const PathFrame& f, const PathStart* starts, u32 count, PixelSa
 struct LightSender {
     const PathArrays& a;
     u32& lights;
-    struct Waiting {
-        Event event;
-        PathState state; // as it was at the event
-        Vec2 u;
-        u32 path;
-    };
-    Waiting* waiting; // kBlock
     struct alignas(64) Choices {
         float place[3][kBlock], normal[3][kBlock], choose[kBlock], chance[kBlock];
         u32 node[kBlock], open[kBlock]; // open: not at a leaf yet
@@ -156,7 +178,7 @@ struct LightSender {
     }
     VX_HD void later(const Event& e, const PathState& state, float which, Vec2 u) {
         const u32 i = count++;
-        waiting[i] = {e, state, u, path};
+        a.waiting[i] = {e, state, u, path};
         choices.choose[i] = which;
     }
 };
@@ -190,16 +212,17 @@ VX_HD void choose_emitters(const LightView& lights, u32 count, LightSender::Choi
 // A call, as lamps are seldom: what follows the choice.
 VX_COLD void aim_lamps(const PathFrame& f, LightSender& send) {
     const SceneView& scene = *f.scene;
+    const PathArrays& a = send.a;
     LightSender::Choices& c = send.choices;
     for (u32 i = 0; i < send.count; ++i) {
-        const Vec3 p = light_place(scene.lights, send.waiting[i].event.p.at), n = send.waiting[i].event.side;
+        const Vec3 p = light_place(scene.lights, a.waiting[i].event.p.at), n = a.waiting[i].event.side;
         c.place[0][i] = p.x, c.place[1][i] = p.y, c.place[2][i] = p.z;
         c.normal[0][i] = n.x, c.normal[1][i] = n.y, c.normal[2][i] = n.z;
     }
     choose_emitters(scene.lights, send.count, c);
     for (u32 i = 0; i < send.count; ++i) {
         if (!(c.chance[i] > 0)) continue;
-        const LightSender::Waiting& w = send.waiting[i];
+        const WaitingLamp& w = a.waiting[i];
         EmitterSample found;
         LightRay to;
         send.path = w.path;
@@ -218,9 +241,8 @@ void meet_events(const PathFrame& f, PixelSample* sums, PathArrays& arrays) {
     const u32 usual = f.scene->lights.count > 0 ? 6 : 4; // direction, sun, lamp, roulette
     BlockDraws draws;
     u32 on = 0, lights = 0;
-    LightSender::Waiting waiting[kBlock];
     LightSender::Choices choices;
-    LightSender send{a, lights, waiting, choices};
+    LightSender send{a, lights, choices};
     for (u32 from = 0; from < a.alive; from += kBlock) {
         const u32 end = a.alive - from < kBlock ? a.alive : from + kBlock;
         u32 lanes = 0;
@@ -231,10 +253,13 @@ void meet_events(const PathFrame& f, PixelSample* sums, PathArrays& arrays) {
             if (a.hits[i].kind == HitKind::nothing && !p.sharp) continue;
             any_sharp |= p.sharp;
             lane_of[i - from] = u8(lanes);
+            draws.above[lanes] = above_sea(*f.sky, p.ray.from), draws.rise[lanes] = p.ray.dir.y;
+            draws.length[lanes] = a.hits[i].kind == HitKind::nothing ? kFar : a.hits[i].t;
             put_sampler(draws, lanes++, p.sampler);
         }
         const u32 ahead = any_sharp ? kAheadMost : usual; // what floats in air takes three more
         make_draws(draws, lanes, ahead);
+        if (any_sharp && f.settings->fog) cross_stretches(*f.sky, draws, lanes);
         for (u32 i = from; i < end; ++i) {
             const u32 path = send.path = a.live[i];
             PathState& p = a.paths[path];

@@ -17,6 +17,7 @@ struct PathRoom::Arrays {
     std::vector<float> light_reach;
     std::vector<Lit> lit;
     std::vector<stream::Carried> carried;
+    std::vector<stream::WaitingLamp> waiting;
 
     void make_room(u32 count) {
         if (paths.size() >= count) return;
@@ -24,6 +25,7 @@ struct PathRoom::Arrays {
         paths.resize(count), live.resize(count), rays.resize(count), media.resize(count), hits.resize(count);
         light_rays.resize(lights), light_reach.resize(lights), light_media.resize(lights), lit.resize(lights),
             carried.resize(lights);
+        waiting.resize(stream::kBlock);
     }
 };
 
@@ -57,7 +59,7 @@ u64 trace_paths(const SceneView& scene, const SkyView& sky, const Camera& camera
     PathRoom::Arrays& r = room.arrays(count);
     stream::PathArrays a{r.paths.data(), r.live.data(),       r.rays.data(),        r.media.data(),
                          r.hits.data(),  r.light_rays.data(), r.light_reach.data(), r.light_media.data(),
-                         r.lit.data(),   r.carried.data()};
+                         r.lit.data(),   r.carried.data(),    r.waiting.data()};
     stages.start(frame, paths.data(), count, sums.data(), a);
     u64 rays = 0;
     while (a.alive > 0) {

@@ -16,11 +16,11 @@ namespace vitrail::trace {
 
 // 1 - exp(-x) and its inverse, x >= 0, exact where small.
 VX_HD float taken_by(float depth) {
-    return depth < 1e-2f ? depth * (1 - depth * (0.5f - depth * (1.0f / 6))) : 1 - std::exp(-depth);
+    return depth < 1e-2f ? depth * (1 - depth * (0.5f - depth * (1.0f / 6))) : 1 - exp_of(-depth);
 }
 VX_HD float depth_of(float taken) {
     return taken < 1e-2f ? taken * (1 + taken * (0.5f + taken * (1.0f / 3)))
-                         : -std::log(1 - (taken < 0.9999999f ? taken : 0.9999999f));
+                         : -log_of(1 - (taken < 0.9999999f ? taken : 0.9999999f));
 }
 
 struct AirStretch {
@@ -29,14 +29,22 @@ struct AirStretch {
     float haze_takes = 0, mist_takes = 0;  // share of light that each would take alone
 };
 
-// A stretch of a ray, blocks; `length` of kFar: to the end of view.
-VX_HD AirStretch air_stretch(const SkyView& sky, Place from, Vec3 dir, float length) {
-    AirStretch a{{sky.haze, sky.mist, sky.mist_height},
-                 float(from.cell.y - sky.sea_level) + from.at.y,
-                 dir.y,
-                 length < kFar ? length : sky.view_distance};
+// What follows is made of single numbers: loops over many stretches become vectors so.
+
+VX_HD float above_sea(const SkyView& sky, Place p) {
+    return float(p.cell.y - sky.sea_level) + p.at.y;
+}
+// A stretch of a ray, blocks; above: over the sea at its start; `length` of kFar: to the end of view.
+VX_HD void set_stretch(const SkyView& sky, float above, float rise, float length, AirStretch& a) {
+    a.mist = {sky.haze, sky.mist, sky.mist_height};
+    a.above = above, a.rise = rise;
+    a.length = length < kFar ? length : sky.view_distance;
     a.haze_takes = taken_by(a.mist.haze * a.length);
     a.mist_takes = taken_by(a.mist.mist * a.length * scene::mean_mist_density(a.mist, a.above, a.rise, a.length));
+}
+VX_HD AirStretch air_stretch(const SkyView& sky, Place from, Vec3 dir, float length) {
+    AirStretch a;
+    set_stretch(sky, above_sea(sky, from), dir.y, length, a);
     return a;
 }
 // Extinction a block after t blocks.
@@ -45,7 +53,7 @@ VX_HD float air_extinction(const AirStretch& a, float t) {
 }
 // Share of light that the first t blocks leave.
 VX_HD float air_passes(const AirStretch& a, float t) {
-    return std::exp(-scene::mist_depth(a.mist, a.above, a.rise, t));
+    return exp_of(-scene::mist_depth(a.mist, a.above, a.rise, t));
 }
 VX_HD float air_passes(const AirStretch& a) {
     return (1 - a.haze_takes) * (1 - a.mist_takes);
@@ -59,7 +67,7 @@ VX_HD float mist_way(const AirStretch& a, float depth) {
     const auto thinning = [&](float e, float d) {
         const float even = d / (m * e), k = even * a.rise / h;
         if (std::abs(k) < 1e-2f) return even * (1 + k * (0.5f + k * (1.0f / 3 + k * 0.25f)));
-        return k < 1 ? even * (-std::log(1 - k) / k) : a.length;
+        return k < 1 ? even * (-log_of(1 - k) / k) : a.length;
     };
     if (a.above < 0) {
         const float flat = a.rise > 0 ? m * -a.above / a.rise : kFar;
@@ -78,23 +86,25 @@ struct AirPoint {
 
 // One place where air scatters, nearly in proportion to what comes from there: haze or mist, each by its own law, and
 // the pdf of both together. The weight is at most haze_takes + mist_takes; its mean is 1 - air_passes(). u: 0 <= u < 1.
-VX_HD AirPoint sample_air_point(const AirStretch& a, float u) {
+VX_HD void find_air_point(const AirStretch& a, float u, AirPoint& p) {
     const float both = a.haze_takes + a.mist_takes;
-    if (!(both > 1e-7f)) return {};
-    AirPoint p;
+    if (!(both > 1e-7f)) return;
     const float which = u * both;
-    if (which < a.haze_takes) {
+    if (which < a.haze_takes)
         p.t = depth_of(which) / a.mist.haze;
-    } else {
+    else
         p.t = mist_way(a, depth_of(clamp(which - a.haze_takes, 0.0f, a.mist_takes)));
-    }
     p.t = clamp(p.t, 0.0f, a.length);
     const float mist = a.mist.mist * scene::mist_density(a.mist, a.above + a.rise * p.t);
-    const float by_haze = std::exp(-a.mist.haze * p.t),
-                by_mist = std::exp(-a.mist.mist * p.t * scene::mean_mist_density(a.mist, a.above, a.rise, p.t));
+    const float by_haze = exp_of(-a.mist.haze * p.t),
+                by_mist = exp_of(-a.mist.mist * p.t * scene::mean_mist_density(a.mist, a.above, a.rise, p.t));
     const float density = a.mist.haze * by_haze + mist * by_mist;
     p.pdf = density / both;
     if (density > 0) p.weight = (a.mist.haze + mist) * by_haze * by_mist / p.pdf;
+}
+VX_HD AirPoint sample_air_point(const AirStretch& a, float u) {
+    AirPoint p;
+    find_air_point(a, u, p);
     return p;
 }
 
@@ -125,7 +135,7 @@ VX_HD Vec3 sample_air_phase(Vec3 dir, Vec2 u) {
 // ---- A liquid, even all over; extinction and scattering a block, by color.
 
 VX_HD Vec3 liquid_passes(Vec3 extinction, float t) {
-    return {std::exp(-extinction.x * t), std::exp(-extinction.y * t), std::exp(-extinction.z * t)};
+    return {exp_of(-extinction.x * t), exp_of(-extinction.y * t), exp_of(-extinction.z * t)};
 }
 
 struct LiquidPoint {

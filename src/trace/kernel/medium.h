@@ -1,6 +1,7 @@
 // What media take from light and scatter. Kernel-safe.
 #pragma once
 
+#include "math/exp.h"
 #include "scene/water.h"
 #include "trace/kernel/surface.h"
 
@@ -21,7 +22,7 @@ VX_HD scene::LiquidOptics medium_optics(const SceneView& s, Place at, u32 medium
 // Share of light left after `length` blocks.
 VX_HD Vec3 medium_left(const SceneView& s, Place at, float length, u32 medium) {
     const Vec3 lost = medium_optics(s, at, medium).absorption * length;
-    return {std::exp(-lost.x), std::exp(-lost.y), std::exp(-lost.z)};
+    return {exp_of(-lost.x), exp_of(-lost.y), exp_of(-lost.z)};
 }
 
 } // namespace vitrail::trace

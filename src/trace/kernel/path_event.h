@@ -78,6 +78,13 @@ struct Event {
     Vec3 side;                  // takes light from this side; 0: from all
 };
 
+// The stretch before the event; an overload for other draws may know it already.
+template <class Draws>
+VX_HD Stretch first_stretch(const SceneView& scene, const SkyView& sky, const PathState& path, float length,
+                            Draws& draws) {
+    return cross_stretch(scene, sky, path.ray, length, path.medium, next_1d(draws));
+}
+
 // Light that the ray finds in the sky.
 template <class Draws>
 VX_HD void meet_sky(const SkyView& sky, const PathSettings& settings, float pixel, PathState& path, Draws& draws,
@@ -204,7 +211,7 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
 
     Speck floating{};
     if (path.sharp && settings.fog) {
-        const Stretch stretch = cross_stretch(scene, sky, path.ray, met ? hit.t : kFar, path.medium, next_1d(draws));
+        const Stretch stretch = first_stretch(scene, sky, path, met ? hit.t : kFar, draws);
         floating = stretch.speck;
         floating.weight = floating.weight * path.carried;
         path.carried = path.carried * stretch.left;

@@ -21,29 +21,42 @@ struct Stretch {
     Vec3 left{1, 1, 1}; // share of the light behind it that passes
 };
 
+// What air does on such a way, the same for all colors; weight 0: nothing scatters.
+struct AirCrossing {
+    float left = 1, t = 0, weight = 0;
+};
+// above: over the sea at its start, rise: of its direction.
+VX_HD void cross_air(const SkyView& sky, float above, float rise, float length, float u, AirCrossing& out) {
+    AirStretch air;
+    set_stretch(sky, above, rise, length, air);
+    out.left = air_passes(air);
+    const float takes = air.haze_takes + air.mist_takes;
+    const float asked = takes < kThinAir ? takes * (1 / kThinAir) : 1.0f;
+    if (takes > 1e-6f && u < asked) {
+        AirPoint p;
+        find_air_point(air, u / asked < kBelowOne ? u / asked : kBelowOne, p);
+        out.t = p.t, out.weight = p.weight / asked;
+    }
+}
+VX_HD Stretch stretch_of(const AirCrossing& air) {
+    return {{air.t, {air.weight, air.weight, air.weight}, air.weight > 0}, {air.left, air.left, air.left}};
+}
+
 // A ray's way of `length` blocks (kFar: up to the sky) through mist or a medium. u: 0..1, where it scatters.
 VX_COLD Stretch cross_stretch(const SceneView& s, const SkyView& sky, const Ray& ray, float length, u32 medium,
                               float u) {
-    Stretch out;
-    if (medium != 0) {
-        const scene::LiquidOptics optics = medium_optics(s, ray.from, medium);
-        if (greatest(optics.scattering) > 0) {
-            const LiquidPoint p = sample_liquid_point(optics.absorption, optics.scattering, length, u);
-            out.speck = {p.t, p.weight, p.pdf > 0};
-        }
-        out.left = medium_left(s, ray.from, length, medium);
-        return out;
+    if (medium == 0) {
+        AirCrossing air;
+        cross_air(sky, above_sea(sky, ray.from), ray.dir.y, length, u, air);
+        return stretch_of(air);
     }
-    const AirStretch air = air_stretch(sky, ray.from, ray.dir, length);
-    const float left = air_passes(air), takes = air.haze_takes + air.mist_takes;
-    out.left = {left, left, left};
-    if (!(takes > 1e-6f)) return out;
-    const float asked = takes < kThinAir ? takes * (1 / kThinAir) : 1.0f;
-    if (u >= asked) return out;
-    u = u / asked < kBelowOne ? u / asked : kBelowOne;
-    const AirPoint p = sample_air_point(air, u);
-    const float weight = p.weight / asked;
-    out.speck = {p.t, {weight, weight, weight}, p.weight > 0};
+    Stretch out;
+    const scene::LiquidOptics optics = medium_optics(s, ray.from, medium);
+    if (greatest(optics.scattering) > 0) {
+        const LiquidPoint p = sample_liquid_point(optics.absorption, optics.scattering, length, u);
+        out.speck = {p.t, p.weight, p.pdf > 0};
+    }
+    out.left = medium_left(s, ray.from, length, medium);
     return out;
 }
 

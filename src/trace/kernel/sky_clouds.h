@@ -3,6 +3,7 @@
 // (tests/render/sky_twin_test.cpp compares the pictures). Kernel-safe.
 #pragma once
 
+#include "math/exp.h"
 #include "trace/kernel/sky_view.h"
 
 namespace vitrail::trace {
@@ -40,7 +41,7 @@ struct CloudsSeen {
 VX_HD CloudsSeen clouds_seen(const SkyView& sky, Vec3 d, float edge, float dither) {
     if (d.y < 0.005f || !sky.clouds || !sky.cloud_noise) return {};
     const float above = sky.cloud_above, near = way_to_shell(d.y, above);
-    const float haze = std::exp(-near * near * (1.0f / (3600.0f * 3600.0f))) * smoothstep(0.005f, 0.06f, d.y);
+    const float haze = exp_of(-near * near * (1.0f / (3600.0f * 3600.0f))) * smoothstep(0.005f, 0.06f, d.y);
     if (haze < 1e-3f) return {};
     const float wide = near * edge / (d.y > 0.08f ? d.y : 0.08f) * 256 * kCloudCoarse;
     const float level = wide > 1 ? std::log2(wide) : 0.0f;
@@ -77,10 +78,10 @@ VX_HD CloudsSeen clouds_seen(const SkyView& sky, Vec3 d, float edge, float dithe
         };
         const float depth = density * 0.9f + ahead(0.22f, 0) * 2.1f + ahead(0.65f, 1) * 2.6f;
         // Light that was scattered many times goes deeper (an octave of Wrenninge et al. 2013).
-        const float direct = std::exp(-depth * 1.25f) * phase + 0.42f * std::exp(-depth * 0.30f);
+        const float direct = exp_of(-depth * 1.25f) * phase + 0.42f * exp_of(-depth * 0.30f);
         const Vec3 lit = sky.cloud_light * (direct * 1.25f) +
                          lerp(sky.below, sky.above, 0.35f + 0.65f * high) * (0.62f + 0.38f * high);
-        const float passes = std::exp(-density * stride * 0.030f);
+        const float passes = exp_of(-density * stride * 0.030f);
         light += lit * (through * (1 - passes));
         through *= passes;
         if (through < 0.02f) {
