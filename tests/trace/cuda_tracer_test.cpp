@@ -207,6 +207,19 @@ TEST(CudaTracer, TellsStages) {
     EXPECT_LE(rays, a.stats.rays);
     EXPECT_GT(double(rays), 0.5 * double(a.stats.rays));
     EXPECT_GT(ms, 0);
+
+    // Told or not: then light's rays go beside others, and the picture is the same.
+    std::string why;
+    const auto untold = cuda_tracer(1, why);
+    ASSERT_TRUE(untold) << why;
+    open_room(*untold);
+    EXPECT_EQ(look(*untold, 1, {}).color, a.color);
+    for (const TraceSettings& s :
+         {TraceSettings{.samples = 16, .bounces = 8, .denoise = false}, TraceSettings{.half = true}}) {
+        (*tracer)->forget_frames(), untold->forget_frames();
+        EXPECT_EQ(look(*untold, 3, s).color, look(**tracer, 3, s).color);
+    }
+    EXPECT_TRUE(untold->stats().stages.empty());
 }
 
 TEST(CudaTracer, SaysWhyNot) {

@@ -61,8 +61,10 @@ public:
         counts_.resize(devices);
         means_.resize(devices);
         waves_.resize(devices);
+        lights_.resize(devices);
         for (u32 i = 0; i < devices; ++i) {
             VX_TRY(gpus_[i].open(int(i)));
+            VX_TRY(lights_[i].open(gpus_[i]));
             VX_TRY(check_kernels());
             for (cudaEvent_t* event : {&events_[i].begin, &events_[i].end, &events_[i].filtered})
                 VX_TRY(check(cudaEventCreate(event), "an event"));
@@ -138,6 +140,7 @@ private:
     };
     std::vector<Means> means_;
     std::vector<DeviceBytes> waves_;
+    std::vector<SideStream> lights_;
     PinnedBytes host_counts_;
     std::unique_ptr<SceneMirror> mirror_;
     std::unique_ptr<DeviceFilm> film_;
@@ -199,14 +202,17 @@ Result<> CudaTracer::trace_bands(std::size_t gpu, PathJob job, const TraceSettin
     }
     const WavePlan plan = plan_wave(job);
     VX_TRY(waves_[gpu].reach(g, wave_bytes(plan)));
+    const SideStream& side = lights_[gpu];
+    WaveStreams streams{g.stream, side.stream, side.sent, side.arrived};
     StageMark mark;
     if (clock_ && gpu == 0) {
+        streams.lights = g.stream; // stages are told one after the other
         clock_->begin();
         mark = [this](const char* stage, u32 round, const u32* items) {
             clock_->mark(fmt::format("{} {}", stage, round), items);
         };
     }
-    launch_paths(job, plan, lay_out_wave(plan, waves_[gpu].as()), mark, g.stream);
+    launch_paths(job, plan, lay_out_wave(plan, waves_[gpu].as()), mark, streams);
     VX_TRY(check(cudaGetLastError(), "tracing"));
     return check(cudaEventRecord(events_[gpu].end, g.stream), "an event");
 }

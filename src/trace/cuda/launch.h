@@ -11,6 +11,7 @@
 #include <functional>
 
 struct CUstream_st; // cudaStream_t points to it
+struct CUevent_st;  // cudaEvent_t does
 
 namespace vitrail::trace::cuda {
 
@@ -52,9 +53,15 @@ struct Wave;
 struct WavePlan;
 // Called after the launches of a stage. items: of the device, how much they have to do.
 using StageMark = std::function<void(const char* stage, u32 round, const u32* items)>;
-// All of a job's paths; wave_memory.h makes plan and memory. mark: may be empty. Nothing waits for the device.
+// Rays to lights go through `lights`, beside the next round's other rays; the events order the two. lights may be main.
+struct WaveStreams {
+    CUstream_st *main = nullptr, *lights = nullptr;
+    CUevent_st *sent = nullptr, *arrived = nullptr;
+};
+// All of a job's paths; wave_memory.h makes plan and memory. mark: may be empty; what it is told is of the main stream.
+// Nothing waits for the device; the main stream ends after all.
 void launch_paths(const PathJob& job, const WavePlan& plan, const Wave& wave, const StageMark& mark,
-                  CUstream_st* stream);
+                  const WaveStreams& streams);
 // Means of another device's bands, into the film. The job is that device's, with this device's film.
 void launch_put_means(const PathJob& job, CUstream_st* stream);
 // Rows of the bands, whole bands alone: the last one may lie outside of the picture in part.

@@ -45,6 +45,32 @@ struct Gpu {
     }
 };
 
+// Work of a device beside its stream's: what is sent here begins after `sent` was recorded in that stream, which goes
+// on with it once `arrived` was recorded here. The owner of the memory that it uses waits for the device before.
+struct SideStream {
+    cudaStream_t stream = nullptr;
+    cudaEvent_t sent = nullptr, arrived = nullptr;
+
+    SideStream() = default;
+    SideStream(SideStream&& o) noexcept
+        : stream(std::exchange(o.stream, nullptr))
+        , sent(std::exchange(o.sent, nullptr))
+        , arrived(std::exchange(o.arrived, nullptr)) {}
+    SideStream& operator=(SideStream&&) = delete;
+    ~SideStream() {
+        for (cudaEvent_t e : {sent, arrived})
+            if (e) cudaEventDestroy(e);
+        if (stream) cudaStreamDestroy(stream);
+    }
+    Result<> open(const Gpu& gpu) {
+        VX_TRY(gpu.use());
+        VX_TRY(check(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "a stream"));
+        for (cudaEvent_t* e : {&sent, &arrived})
+            VX_TRY(check(cudaEventCreateWithFlags(e, cudaEventDisableTiming), "an event"));
+        return {};
+    }
+};
+
 // Bytes that a kind of memory lent. Memory: take sets the address or says why not; give takes it back.
 template <class Memory>
 class OwnedBytes {

@@ -38,9 +38,16 @@ __global__ void put_means_kernel(const __grid_constant__ PathJob j) {
 } // namespace
 
 void launch_paths(const PathJob& job, const WavePlan& plan, const Wave& wave, const StageMark& mark,
-                  cudaStream_t stream) {
+                  const WaveStreams& streams) {
+    const cudaStream_t stream = streams.main, lights = streams.lights;
     const auto told = [&](const char* stage, u32 round, const WaveRound::Count& items) {
         if (mark) mark(stage, round, &items.n);
+    };
+    // What comes in `then` begins after all that `first` has so far.
+    const auto order = [](cudaStream_t first, cudaEvent_t by, cudaStream_t then) {
+        if (first == then) return;
+        cudaEventRecord(by, first);
+        cudaStreamWaitEvent(then, by, 0);
     };
     for (u32 k = 0; k < plan.batches(); ++k) {
         const WaveJob j = wave_batch(job, plan, wave, k);
@@ -51,13 +58,18 @@ void launch_paths(const PathJob& job, const WavePlan& plan, const Wave& wave, co
             const WaveRound& now = wave.rounds[round];
             launch_wave_closest(j, round, stream);
             told("closest", round, now.rays);
+            // The last round's light is there before this one's events add to it: sums have one order. And only then
+            // may its rays be overwritten.
+            order(lights, streams.arrived, stream);
             launch_skies(j, round, stream);
             told("sky", round, now.missed);
             launch_surfaces(j, round, stream);
             told("surface", round, now.met);
-            launch_wave_lights(j, round, stream);
+            order(stream, streams.sent, lights);
+            launch_wave_lights(j, round, lights);
             told("light", round, now.lights);
         }
+        order(lights, streams.arrived, stream);
         launch_rest(j, stream);
         told("rest", k, wave.rounds[plan.rounds].rays);
         finish_kernel<<<(j.pixels + kBlock - 1) / kBlock, kBlock, 0, stream>>>(j);

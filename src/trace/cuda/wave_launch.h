@@ -1,4 +1,4 @@
-// The wave's kernels, launched: all in one stream, in the order of paths.cu. How many paths a round has is known to
+// The wave's kernels, launched in the order of paths.cu. How many paths a round has is known to
 // the device alone; so launches are as large as the device, and warps take what there is.
 #pragma once
 
