@@ -305,5 +305,35 @@ TEST(Wave, Memory) {
     EXPECT_GT(plan_wave(job).pixels, 0u);
 }
 
+// Where a device has less memory batches are smaller, and remain so.
+TEST(Wave, FitsWhatThereIs) {
+    PathJob job;
+    job.film.width = 1920, job.film.height = 1080;
+    u32 most = kWaveMost, asked = 0;
+    u64 room = 200u << 20;
+    const auto take = [&](u64 bytes) -> Result<> {
+        ++asked;
+        if (bytes > room) return fail(ErrorCode::limit, "too much");
+        return {};
+    };
+    const auto plan = fit_wave(job, most, take);
+    ASSERT_TRUE(plan);
+    EXPECT_LE(wave_bytes(*plan), room);
+    EXPECT_GT(2 * wave_bytes(*plan), room);
+    EXPECT_EQ(plan->batches(), (plan->all + most - 1) / most);
+    asked = 0;
+    EXPECT_EQ(fit_wave(job, most, take)->paths, plan->paths);
+    EXPECT_EQ(asked, 1u);
+    // Not even the least; and errors that less memory does not mend.
+    room = 0, asked = 0, most = kWaveMost;
+    EXPECT_EQ(fit_wave(job, most, take).error().code, ErrorCode::limit);
+    EXPECT_EQ(most, kWaveLeast);
+    EXPECT_EQ(asked, 6u);
+    most = kWaveMost;
+    EXPECT_EQ(fit_wave(job, most, [](u64) -> Result<> { return fail(ErrorCode::io, "lost"); }).error().code,
+              ErrorCode::io);
+    EXPECT_EQ(most, kWaveMost);
+}
+
 } // namespace
 } // namespace vitrail::test

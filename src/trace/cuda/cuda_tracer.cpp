@@ -139,7 +139,11 @@ private:
         DeviceBytes own, gathered; // on its device; on the first
     };
     std::vector<Means> means_;
-    std::vector<DeviceBytes> waves_;
+    struct WaveRoom {
+        DeviceBytes bytes;
+        u32 most = kWaveMost; // paths of a batch
+    };
+    std::vector<WaveRoom> waves_;
     std::vector<SideStream> lights_;
     PinnedBytes host_counts_;
     std::unique_ptr<SceneMirror> mirror_;
@@ -200,8 +204,12 @@ Result<> CudaTracer::trace_bands(std::size_t gpu, PathJob job, const TraceSettin
         VX_TRY(means_[gpu].own.reach(g, bytes));
         job.means = means_[gpu].own.as<SampleMean>();
     }
-    const WavePlan plan = plan_wave(job);
-    VX_TRY(waves_[gpu].reach(g, wave_bytes(plan)));
+    WaveRoom& room = waves_[gpu];
+    VX_TRY_ASSIGN(const WavePlan plan, fit_wave(job, room.most, [&](u64 bytes) {
+                      auto taken = room.bytes.reach(g, bytes);
+                      if (!taken) (void)cudaGetLastError(); // is told here, not by the launches
+                      return taken;
+                  }));
     const SideStream& side = lights_[gpu];
     WaveStreams streams{g.stream, side.stream, side.sent, side.arrived};
     StageMark mark;
@@ -212,7 +220,7 @@ Result<> CudaTracer::trace_bands(std::size_t gpu, PathJob job, const TraceSettin
             clock_->mark(fmt::format("{} {}", stage, round), items);
         };
     }
-    launch_paths(job, plan, lay_out_wave(plan, waves_[gpu].as()), mark, streams);
+    launch_paths(job, plan, lay_out_wave(plan, room.bytes.as()), mark, streams);
     VX_TRY(check(cudaGetLastError(), "tracing"));
     return check(cudaEventRecord(events_[gpu].end, g.stream), "an event");
 }
@@ -279,7 +287,7 @@ Result<> CudaTracer::collect() {
     stats_.host_bytes = scene_.memory_bytes();
     stats_.device_bytes = mirror_->device_bytes() + film_->bytes();
     for (std::size_t i = 0; i < gpus_.size(); ++i)
-        stats_.device_bytes += means_[i].own.size() + means_[i].gathered.size() + waves_[i].size();
+        stats_.device_bytes += means_[i].own.size() + means_[i].gathered.size() + waves_[i].bytes.size();
     stats_.chunks = scene_.chunk_count();
     stats_.emitters = scene_.emitter_count();
     return {};

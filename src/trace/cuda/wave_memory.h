@@ -1,6 +1,7 @@
 // How many paths go on together, and their memory. Host only; tests lay it out in the host's memory.
 #pragma once
 
+#include "base/result.h"
 #include "trace/cuda/wave.h"
 
 namespace vitrail::trace::cuda {
@@ -19,6 +20,22 @@ struct WavePlan {
 WavePlan plan_wave(const PathJob& job, u32 most = kWaveMost);
 
 u64 wave_bytes(const WavePlan& plan);
+
+inline constexpr u32 kWaveLeast = 1u << 16; // paths of a batch that a device must have room for
+
+// The plan whose memory `take` (Result<>(u64 bytes)) could give; where that is more than there is (ErrorCode::limit) a
+// batch has half as many paths, and so on. most: where to begin; then where it ended, for the next time. Pictures do
+// not depend on it. Errors: the last one of take.
+template <class Take>
+Result<WavePlan> fit_wave(const PathJob& job, u32& most, Take&& take) {
+    for (;; most /= 2) {
+        const WavePlan plan = plan_wave(job, most);
+        auto taken = take(wave_bytes(plan));
+        if (taken) return plan;
+        if (taken.error().code != ErrorCode::limit || most <= kWaveLeast) return tl::unexpected(taken.error());
+    }
+}
+
 // memory: aligned to 256 bytes.
 Wave lay_out_wave(const WavePlan& plan, void* memory);
 
