@@ -18,7 +18,7 @@ enum TestState : u32 { t_air, t_hidden, t_stone, t_glass, t_water, t_leaves, t_t
 // Media: 1 water, 2 glass.
 struct TestContent {
     std::vector<StateRecord> states{t_states};
-    std::vector<MediumRecord> media{MediumRecord{}, MediumRecord{1.33f, {}, {}, true, 1},
+    std::vector<MediumRecord> media{MediumRecord{}, MediumRecord{1.33f, {}, {}, true, 1, 228},
                                     MediumRecord{1.5f, {}, {}, false, 2}};
     std::vector<TraceQuad> quads;
     std::vector<u32> texels;

@@ -246,6 +246,45 @@ TEST(TraverseMedia, EverythingAtOnce) {
     compare(world, rng, 150, 600);
 }
 
+// Rays that water mirrors flatly pass above cell after cell of it; they are told so by the cells above alone. What they
+// meet is the same as when each cell's surface is worked out.
+TEST(TraverseMedia, WaysAboveWaterMeetTheSame) {
+    Rng rng(25);
+    GridWorld world;
+    for (i32 i = 0; i < 64 * 64 * 22; ++i)
+        world.at(i % 64, i / 4096, i / 64 % 64) = i / 4096 < 18 ? t_stone : t_water;
+    for (u32 i = 0; i < 60; ++i) // drops on it, holes in it, sunken plants, stones
+        world.at(i32(rng.below(64)), 21 + i32(rng.below(2)), i32(rng.below(64))) = i % 4 == 0   ? t_air
+                                                                                   : i % 4 == 1 ? t_sunken
+                                                                                   : i % 4 == 2 ? t_stone
+                                                                                                : t_water;
+    world.upload();
+    SceneView quick = world.scene(), slow = quick;
+    std::vector<MediumRecord> media = world.content.media;
+    media[1].liquid_top = 256; // no promise
+    slow.media = media.data();
+    const IVec3 o = world.corner();
+    u32 far = 0, water = 0;
+    for (u32 i = 0; i < 4000; ++i) {
+        const float turn = rng.unit() * 6.2831853f, rise = (rng.unit() - 0.5f) * (i % 2 ? 0.004f : 0.1f);
+        const Ray ray{{{o.x + 2 + i32(rng.below(60)), o.y + 21, o.z + 2 + i32(rng.below(60))},
+                       {rng.unit(), i % 3 ? 0.8907f + 0.1f * rng.unit() : 0.890625f, rng.unit()}},
+                      normalized({std::cos(turn), rise, std::sin(turn)})};
+        Hit a, b;
+        ASSERT_EQ(closest_hit(quick, ray, kFar, 0, a), closest_hit(slow, ray, kFar, 0, b));
+        ASSERT_EQ(a.kind, b.kind);
+        if (a.kind == HitKind::nothing) continue;
+        ASSERT_EQ(a.t, b.t);
+        ASSERT_EQ(a.cell, b.cell);
+        ASSERT_EQ(a.state, b.state);
+        ASSERT_EQ(a.quad, b.quad);
+        far += a.t > 8;
+        water += a.state == t_water;
+    }
+    EXPECT_GT(far, 300u);
+    EXPECT_GT(water, 300u);
+}
+
 // A deep sea costs no more than air: the way through it is a few steps.
 TEST(TraverseMedia, DeepWaterIsCrossedInFewSteps) {
     GridWorld world;

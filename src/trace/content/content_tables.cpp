@@ -1,5 +1,7 @@
 #include "trace/content/content_tables.h"
 
+#include "scene/liquid_surface.h"
+
 #include "trace/content/emission.h"
 #include "trace/content/model_quads.h"
 #include "trace/kernel/surface.h"
@@ -56,7 +58,21 @@ Result<> ContentTables::update(const scene::BlockModels& models, const StateTabl
     for (u32 id = u32(states_.size()); id < count; ++id)
         add_state(models, states, StateId(id));
     if (states_.empty()) states_.resize(1);
+    set_liquid_tops();
     return {};
+}
+
+// Corners are means of the levels around them, in steps of 4 (scene/liquid_surface.h).
+void ContentTables::set_liquid_tops() {
+    std::vector<u16> tops(media_.size(), u16(scene::kLiquidLevel));
+    for (const StateRecord& r : states_)
+        if (r.kind == CellKind::liquid || r.kind == CellKind::model)
+            tops[r.medium] = std::max<u16>(tops[r.medium], u16((r.liquid_height + 1 + 2) & ~3));
+    for (std::size_t i = 0; i < media_.size(); ++i) {
+        if (media_[i].liquid_top == tops[i]) continue;
+        media_[i].liquid_top = tops[i];
+        ++generation_; // copies of the table have the old one
+    }
 }
 
 void ContentTables::fill(SceneView& scene) const {

@@ -47,6 +47,7 @@ private:
     void add_state(const scene::BlockModels& models, const StateTable& states, StateId id);
     u8 medium_for(const StateInfo& info, u32 layer);
     u8 fluid_medium(const scene::LiquidLook& liquid, const StateInfo& info, bool opaque);
+    void set_liquid_tops();
     void set_emission(StateRecord& record, const StateInfo& info);
 
     const scene::BlockModels* models_ = nullptr;

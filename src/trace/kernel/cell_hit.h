@@ -16,8 +16,8 @@ namespace vitrail::trace {
 
 // How much of a cell a ray has behind it, when it goes on after something that lets it pass.
 struct CellProgress {
-    u32 parts = 0;       // bits: kEntrySheet, kBorder, kInside, kExitSheet
-    float inside_t = 0;  // the last thing met inside; of equal ones the last quad. Nothing lies behind a ray's start
+    u32 parts = 0;      // bits: kEntrySheet, kBorder, kInside, kExitSheet
+    float inside_t = 0; // the last thing met inside; of equal ones the last quad. Nothing lies behind a ray's start
     u32 inside_quad = 0;
     static constexpr u32 kEntrySheet = 1, kBorder = 2, kInside = 4, kExitSheet = 8;
 };
@@ -105,9 +105,9 @@ VX_HD bool meet_quad(const SceneView& s, u32 index, Vec3 at, Vec3 dir, float t, 
     return true;
 }
 
-// Quads and the fluid's surface, the nearest after `progress` and up to t_out.
+// Quads and the fluid's surface, the nearest after `progress` and up to t_out. top: null where no surface is met.
 VX_HD bool meet_inside(const SceneView& s, const Ray& ray, const Walk& w, u32 state, const StateRecord& r, u32 medium,
-                       float t_out, const CellProgress& progress, Hit& hit, u32& behind) {
+                       const LiquidTop* top, float t_out, const CellProgress& progress, Hit& hit, u32& behind) {
     const Vec3 at = in_cell(ray, {w.x, w.y, w.z}, w.t);
     const float t = float(w.t);
     bool found = false;
@@ -117,12 +117,11 @@ VX_HD bool meet_inside(const SceneView& s, const Ray& ray, const Walk& w, u32 st
         if (meet_quad(s, r.first_quad + i, at, ray.dir, t, medium, progress.inside_t, progress.inside_quad, best.t,
                       best, behind))
             found = true;
-    if (has_fluid(r)) {
+    if (top) {
         const bool leaving = medium == r.medium;
-        const LiquidTop top = liquid_top(s, w.cell(), r.medium);
         float along;
         const float least = progress.inside_t > t ? progress.inside_t - t : 0.0f;
-        if (hit_liquid_top(top, at, ray.dir, least, best.t - t, leaving, along) &&
+        if (hit_liquid_top(*top, at, ray.dir, least, best.t - t, leaving, along) &&
             !(progress.inside_quad == kLiquidSurface && t + along <= progress.inside_t)) {
             surface_hit(best, t + along, w.cell(), state, at + ray.dir * along, leaving);
             behind = leaving ? 0 : r.medium;
@@ -138,19 +137,32 @@ VX_HD bool meet_inside(const SceneView& s, const Ray& ray, const Walk& w, u32 st
 // The first thing that the ray, in `medium`, meets in the cell where the walk stands, after what `progress` holds;
 // `behind`: the medium beyond it. Nothing beyond t_most counts. A start cell has no border.
 VX_HD_CALL bool meet_cell(const SceneView& s, const Ray& ray, const Walk& w, u32 medium, float t_most,
-                     CellProgress& progress, Hit& hit, u32& behind) {
+                          CellProgress& progress, Hit& hit, u32& behind) {
     const IVec3 cell = w.cell();
     const u32 state = state_at(s.grid, cell);
     const StateRecord& r = s.states[state];
     const bool entered = w.axis != 3;
     behind = medium;
+    bool fluid = has_fluid(r) && !(progress.parts & CellProgress::kInside);
+    const bool looks_inside = r.quads != 0 || fluid || has_sheets(r);
+    Walk next = w;
+    if (looks_inside) step_cell(next);
+    LiquidTop top;
+    bool over = false; // in air above the fluid
+    if (fluid) {
+        const IVec3 relative{w.x, w.y, w.z};
+        over = medium == 0 &&
+               above_liquid(s, cell, r.medium, in_cell(ray, relative, w.t).y, in_cell(ray, relative, next.t).y);
+        fluid = !over;
+        if (fluid) top = liquid_top(s, cell, r.medium);
+    }
 
     if (entered && !(progress.parts & (CellProgress::kBorder | CellProgress::kInside))) {
         const u32 face = w.face(), out = face ^ 1; // of this cell; of the one before
         if (is_opaque_cube(r)) {
             // What stands out of the cube lies before it.
             if (r.kind == CellKind::detailed &&
-                meet_inside(s, ray, w, state, r, medium, float(w.t) + 1e-5f, progress, hit, behind)) {
+                meet_inside(s, ray, w, state, r, medium, nullptr, float(w.t) + 1e-5f, progress, hit, behind)) {
                 progress.inside_t = hit.t, progress.inside_quad = hit.quad;
                 return hit.t < t_most;
             }
@@ -160,7 +172,6 @@ VX_HD_CALL bool meet_cell(const SceneView& s, const Ray& ray, const Walk& w, u32
         }
         const IVec3 before = beside(cell, face);
         const bool sheets = has_sheets(r);
-        const bool fluid = has_fluid(r);
         if (sheets && !(progress.parts & CellProgress::kEntrySheet)) {
             progress.parts |= CellProgress::kEntrySheet;
             const u32 other = state_at(s.grid, before);
@@ -185,12 +196,11 @@ VX_HD_CALL bool meet_cell(const SceneView& s, const Ray& ray, const Walk& w, u32
         }
         progress.parts |= CellProgress::kEntrySheet | CellProgress::kBorder;
         // The medium here, where the ray comes in.
-        if (r.medium != medium || fluid) {
+        if (!over && (r.medium != medium || fluid)) {
             const Vec3 at = in_cell(ray, {w.x, w.y, w.z}, w.t);
             bool full = true;
             u32 here = r.medium;
             if (fluid) {
-                const LiquidTop top = liquid_top(s, cell, r.medium);
                 full = top.full;
                 if (!full && at.y > liquid_height_at(top, clamp(at.x, 0.0f, 1.0f), clamp(at.z, 0.0f, 1.0f))) here = 0;
             }
@@ -211,13 +221,11 @@ VX_HD_CALL bool meet_cell(const SceneView& s, const Ray& ray, const Walk& w, u32
     }
     if (is_opaque_cube(r)) return false;
 
-    if (r.quads != 0 || has_fluid(r) || has_sheets(r)) {
-        Walk next = w;
-        step_cell(next);
+    if (looks_inside) {
         if (!(progress.parts & CellProgress::kInside)) {
             const float t_out = float(next.t) + 1e-5f;
-            if ((r.quads != 0 || has_fluid(r)) &&
-                meet_inside(s, ray, w, state, r, medium, t_out, progress, hit, behind)) {
+            if ((r.quads != 0 || fluid) &&
+                meet_inside(s, ray, w, state, r, medium, fluid ? &top : nullptr, t_out, progress, hit, behind)) {
                 progress.parts |= CellProgress::kBorder;
                 progress.inside_t = hit.t, progress.inside_quad = hit.quad;
                 return hit.t < t_most;

@@ -64,6 +64,8 @@ struct MediumRecord {
     Vec3 absorption{}, scattering{}; // a block, base e; water's follow from the biome's tint instead (tinted)
     bool tinted = false;
     u8 kind = 0; // 0 air, 1 water, 2 other
+    // Of fluids: where the fluid does not lie above too, no surface is higher than so many 1/256 block.
+    u16 liquid_top = 256;
 };
 
 // Square layers of RGBA8; level 0 only is `size` wide, further levels follow in each layer. Albedo sRGB-encoded; alpha
