@@ -45,6 +45,7 @@ Result<> ContentTables::update(const scene::BlockModels& models, const StateTabl
         quads_.clear();
         model_quads_.clear();
         media_.resize(2);
+        topped_ = 0;
         medium_of_block_.clear();
         medium_of_fluid_.clear();
     }
@@ -71,8 +72,9 @@ void ContentTables::set_liquid_tops() {
     for (std::size_t i = 0; i < media_.size(); ++i) {
         if (media_[i].liquid_top == tops[i]) continue;
         media_[i].liquid_top = tops[i];
-        ++generation_; // copies of the table have the old one
+        if (i < topped_) ++generation_; // copies of the table have the old one
     }
+    topped_ = media_.size();
 }
 
 void ContentTables::fill(SceneView& scene) const {

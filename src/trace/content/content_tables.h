@@ -56,6 +56,7 @@ private:
     std::vector<StateRecord> states_;
     std::vector<TraceQuad> quads_;
     std::vector<MediumRecord> media_;
+    std::size_t topped_ = 0; // of them have their liquid_top
     std::vector<u32> tints_;
     std::map<std::tuple<BlockId, u32>, u8> medium_of_block_; // by block and layer
     std::map<u16, u8> medium_of_fluid_;
