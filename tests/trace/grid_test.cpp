@@ -21,7 +21,8 @@ void expect_right_skips(Grid& grid) {
     for (i32 y = 0; y < ny; ++y)
         for (i32 z = 0; z < nz; ++z)
             for (i32 x = 0; x < nx; ++x) {
-                const u32 chunk = chunk_of_brick(x, y, z), word = g.skips[chunk * 64 + bit(x, y, z)];
+                const u32 chunk = chunk_of_brick(x, y, z),
+                          word = g.skips[skip_index(g, {g.first.x * 4 + x, g.first.y * 4 + y, g.first.z * 4 + z})];
                 if (stops(x, y, z)) {
                     ASSERT_EQ(word, kBrickStops | (g.chunks[chunk].masks[0] * 64 + bit(x, y, z)));
                     continue;

@@ -79,11 +79,11 @@ VX_HD Walk walk_of(const Group& g, u32 lane, const Ray& ray) {
     return w;
 }
 
-VX_HD void put_walk(Group& g, u32 lane, const Walk& w) {
-    const i32 r[3] = {w.x, w.y, w.z};
+VX_HD void put_place(Group& g, u32 lane, const AirPlace& p) {
+    const i32 r[3] = {p.r.x, p.r.y, p.r.z};
     for (u32 axis = 0; axis < 3; ++axis)
         set_lane(g.a[axis], lane, (r[axis] ^ lane_of(g.sign[axis], lane)) + lane_of(g.base[axis], lane));
-    set_lane(g.axis, lane, i32(w.axis));
+    set_lane(g.axis, lane, i32(p.axis));
 }
 
 struct Range {
@@ -193,18 +193,13 @@ VX_HD void load_words(Group& g, const GridView& grid, const Range& range) {
     g.beyond = __mmask16(beyond & g.live);
     g.before = __mmask16(before & g.live & ~beyond);
     const __mmask16 on = __mmask16(g.live & ~beyond & ~before);
-    // The brick's word: slot of the chunk, brick in it.
     const auto bits = [](__m512i v, u32 mask) { return _mm512_and_si512(v, _mm512_set1_epi32(i32(mask))); };
     const auto left = [](__m512i v, u32 by) { return _mm512_sll_epi32(v, _mm_cvtsi32_si128(i32(by))); };
-    const u32 mx = (1u << grid.bits_x) - 1, my = (1u << grid.bits_y) - 1, mz = (1u << grid.bits_z) - 1;
-    __m512i index = _mm512_slli_epi32(bits(cell[0], mx << 4), 2); // slot << 6
-    index = _mm512_or_si512(index, left(bits(cell[2], mz << 4), grid.bits_x + 2));
-    index = _mm512_or_si512(index, left(bits(cell[1], my << 4), grid.bits_x + grid.bits_z + 2));
-    const __m512i brick = _mm512_or_si512(_mm512_or_si512(_mm512_srli_epi32(bits(cell[0], 12), 2), bits(cell[2], 12)),
-                                          _mm512_slli_epi32(bits(cell[1], 12), 2));
-    index = _mm512_or_si512(index, brick);
+    __m512i byte = bits(cell[0], grid.skip_x);
+    byte = _mm512_or_si512(byte, bits(left(cell[2], grid.skip_shift_z), grid.skip_z));
+    byte = _mm512_or_si512(byte, bits(left(cell[1], grid.skip_shift_y), grid.skip_y));
     g.word =
-        _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), on, index, reinterpret_cast<const int*>(grid.skips), 4);
+        _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), on, byte, reinterpret_cast<const int*>(grid.skips), 1);
     g.bit = _mm512_or_si512(_mm512_or_si512(bits(cell[0], 3), _mm512_slli_epi32(bits(cell[2], 3), 2)),
                             _mm512_slli_epi32(bits(cell[1], 3), 4));
 }
@@ -284,18 +279,12 @@ VX_HD Events step(Group& g) {
     return e;
 }
 
-// The step of a lane that is not sure, as next_in_air makes it. False: the way ends.
-VX_HD bool step_exactly(Group& g, u32 lane, const GridView& grid, const Ray& ray, float t_max) {
-    Walk w = walk_of(g, lane, ray);
-    const IVec3 cell = w.cell();
-    const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
-    const u32 word = grid.skips[slot_of(grid, {cell.x >> 4, cell.y >> 4, cell.z >> 4}) * 64 + brick];
-    if (word & kBrickStops)
-        step_cell(w);
-    else
-        leave_box(w, ray, skip_planes(w, cell, word));
-    put_walk(g, lane, w);
-    return w.t < double(t_max);
+// The step of a lane that is not sure. False: the way ends.
+VX_HD bool exact_step(Group& g, u32 lane, const GridView& grid, const Ray& ray, float t_max) {
+    const Walk w = walk_of(g, lane, ray);
+    const AirPlace p = step_exactly(grid, ray, {{w.x, w.y, w.z}, w.axis, true}, t_max);
+    if (p.inside) put_place(g, lane, p);
+    return p.inside;
 }
 
 // Runs rays by lanes, whose results say "nothing" beforehand. on_stopped(id, cell relative to the start, axis (3: the
@@ -360,7 +349,7 @@ VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnRe
             if (__builtin_expect(e.unsure | e.before, 0)) {
                 for (u32 m = e.unsure; m; m &= m - 1) {
                     const u32 lane = u32(__builtin_ctz(m));
-                    if (!step_exactly(g, lane, grid, r.rays[lane_of(g.id, lane)], float_of(g.t_max, lane)))
+                    if (!exact_step(g, lane, grid, r.rays[lane_of(g.id, lane)], float_of(g.t_max, lane)))
                         ended = __mmask16(ended | 1u << lane);
                 }
                 for (u32 m = e.before; m; m &= m - 1) {
@@ -370,23 +359,13 @@ VX_HD void run(const GridView& grid, const Rays& r, OnStopped&& on_stopped, OnRe
                     while (comes && out_of(range, w.cell()))
                         comes = approach(least, size, r.rays[id], w) && w.t < double(float_of(g.t_max, lane));
                     g.fresh = __mmask16(g.fresh & ~(1u << lane));
-                    put_walk(g, lane, w);
+                    put_place(g, lane, {{w.x, w.y, w.z}, w.axis, true});
                     if (!comes) ended = __mmask16(ended | 1u << lane);
                 }
             }
             g.live = __mmask16(g.live & ~ended);
         }
     }
-}
-
-// A lane's place in the scalar walk.
-VX_HD Walk stopped_walk(const Ray& ray, const i32* cell, u32 axis) {
-    Walk w = start_walk(ray);
-    if (axis == 3) return w;
-    w.x = cell[0], w.y = cell[1], w.z = cell[2], w.axis = axis;
-    const bool up = w.up >> axis & 1;
-    w.t = axis == 0 ? plane_x(w, w.x + !up) : axis == 1 ? plane_y(w, w.y + !up) : plane_z(w, w.z + !up);
-    return w;
 }
 
 // What a ray through air meets in the cell where it stopped. A call: cubes, the most, need none of it.
@@ -402,7 +381,7 @@ __attribute__((noinline)) bool meet_stop(const SceneView& s, const Ray& ray, con
 __attribute__((noinline)) bool light_stop(const SceneView& s, const Ray& ray, const i32* cell, u32 axis, float t_max,
                                           Lit& lit) {
     Hit met;
-    if (!meet_stop(s, ray, stopped_walk(ray, cell, axis), t_max, met)) return false;
+    if (!meet_stop(s, ray, walk_in(ray, {cell[0], cell[1], cell[2]}, axis), t_max, met)) return false;
     lit = lit_behind(s, met);
     return true;
 }
@@ -423,7 +402,7 @@ void trace_avx512(const SceneView& s, const Rays& r, Hit* hits) {
         s.grid, r,
         [&](u32 id, const i32* cell, u32 axis, float t_max) {
             const Ray& ray = r.rays[id];
-            const Walk w = stopped_walk(ray, cell, axis);
+            const Walk w = walk_in(ray, {cell[0], cell[1], cell[2]}, axis);
             const u32 state = state_at(s.grid, w.cell());
             if (s.states[state].kind == CellKind::cube && axis != 3) {
                 face_hit(hits[id], w.t, w.cell(), state, w.face(), false);

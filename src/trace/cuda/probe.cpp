@@ -52,6 +52,7 @@ class Rays final : public RayProbe {
 public:
     Result<> open() {
         VX_TRY(gpus_[0].open(0));
+        VX_TRY(counter_.make(gpus_[0], sizeof(u32)));
         VX_TRY(watch_.open());
         return mirror_.open();
     }
@@ -67,13 +68,15 @@ public:
     Result<double> closest(u32 medium) override {
         VX_TRY(gpus_[0].use());
         VX_TRY(watch_.start());
-        launch_closest(mirror_.scene(0), rays_.as<Ray>(), count_, medium, hits_.as<Hit>(), gpus_[0].stream);
+        launch_closest(mirror_.scene(0), rays_.as<Ray>(), count_, medium, hits_.as<Hit>(), counter_.as<u32>(),
+                       gpus_[0].stream, variant_);
         return watch_.stop();
     }
     Result<double> shadows(u32 medium) override {
         VX_TRY(gpus_[0].use());
         VX_TRY(watch_.start());
-        launch_shadows(mirror_.scene(0), rays_.as<Ray>(), count_, medium, lit_.as<u8>(), gpus_[0].stream);
+        launch_shadows(mirror_.scene(0), rays_.as<Ray>(), count_, medium, lit_.as<u8>(), counter_.as<u32>(),
+                       gpus_[0].stream, variant_);
         return watch_.stop();
     }
     Result<std::vector<Hit>> hits() override {
@@ -86,14 +89,19 @@ public:
         VX_TRY(check(cudaMemcpy(out.data(), lit_.as(), count_, cudaMemcpyDeviceToHost), "reading shadows"));
         return out;
     }
+    std::string set_variant(u32 variant) override {
+        if (variant >= ray_variants()) return {};
+        variant_ = variant;
+        return ray_variant_name(variant);
+    }
     u64 sent_bytes() const override { return mirror_.sent_bytes(); }
 
 private:
     std::array<Gpu, 1> gpus_;
     SceneMirror mirror_{gpus_};
     Stopwatch watch_{gpus_[0]};
-    DeviceBytes rays_, hits_, lit_;
-    u32 count_ = 0;
+    DeviceBytes rays_, hits_, lit_, counter_;
+    u32 count_ = 0, variant_ = kRayVariant;
 };
 
 class FilmAlone final : public FilmProbe {

@@ -26,7 +26,7 @@ bool empty(const BrickBox& b) {
 }
 
 u32 word_of(const GridView& g, i32 x, i32 y, i32 z) {
-    return slot_of(g, {x >> 2, y >> 2, z >> 2}) * 64 + (u32(x & 3) | u32(z & 3) << 2 | u32(y & 3) << 4);
+    return skip_index(g, {x, y, z});
 }
 
 bool stops(const GridView& g, i32 x, i32 y, i32 z) {
@@ -72,14 +72,15 @@ void BrickSkips::touch(ChunkPos chunk) {
 }
 
 void BrickSkips::point_to_masks(const GridView& g, IVec3 chunk) {
-    const u32 slot = slot_of(g, chunk);
-    const GridChunk& c = g.chunks[slot];
-    u32* words = &words_[slot * 64];
-    for (u32 b = 0; b < 64; ++b)
-        if (c.bricks[0] >> b & 1)
-            words[b] = kBrickStops | (c.masks[0] * 64 + b);
-        else if (words[b] & kBrickStops)
-            words[b] = 0;
+    const GridChunk& c = g.chunks[slot_of(g, chunk)];
+    for (u32 b = 0; b < 64; b += 4) {
+        u32* words = &words_[word_of(g, chunk.x * 4, chunk.y * 4 + i32(b >> 4), chunk.z * 4 + i32(b >> 2 & 3))];
+        for (u32 x = 0; x < 4; ++x)
+            if (c.bricks[0] >> (b + x) & 1)
+                words[x] = kBrickStops | (c.masks[0] * 64 + b + x);
+            else if (words[x] & kBrickStops)
+                words[x] = 0;
+    }
 }
 
 // Values of one octant for the bricks of `box`, from ahead to behind; those in `write` are kept. What lies ahead of the
@@ -186,14 +187,21 @@ void BrickSkips::refresh(const GridView& g, ThreadPool* pool) {
         changed_.clear(), touched_.clear();
         return;
     }
-    const auto note = [&](IVec3 chunk) {
-        const u64 at = u64(slot_of(g, chunk)) * 64 * sizeof(u32);
-        dirty.add(at, at + 64 * sizeof(u32));
+    // Rows of bricks, all in the window; it may wrap around within a row.
+    const auto note = [&](const BrickBox& b) {
+        const u32 wide = 4u << g.bits_x, count = u32(b.most.x - b.least.x);
+        for (i32 y = b.least.y; y < b.most.y; ++y)
+            for (i32 z = b.least.z; z < b.most.z; ++z) {
+                const u64 at = word_of(g, b.least.x, y, z), row = at & ~u64(wide - 1);
+                const u64 before = std::min<u64>(count, row + wide - at);
+                dirty.add(at * sizeof(u32), (at + before) * sizeof(u32));
+                dirty.add(row * sizeof(u32), (row + count - before) * sizeof(u32));
+            }
     };
     for (const ChunkPos& c : touched_)
         if (in_window(g, {c.x, c.y, c.z})) {
             point_to_masks(g, {c.x, c.y, c.z});
-            note({c.x, c.y, c.z});
+            note({{c.x * 4, c.y * 4, c.z * 4}, {c.x * 4 + 4, c.y * 4 + 4, c.z * 4 + 4}});
         }
     for (const BrickBox& b : changed_) {
         // Slots that mean other chunks now still point where the old ones did.
@@ -216,11 +224,7 @@ void BrickSkips::refresh(const GridView& g, ThreadPool* pool) {
             box = clipped(box, window);
             if (!empty(box)) solve(g, octant, box, box, true);
         }
-        reach = clipped(reach, window);
-        for (i32 y = reach.least.y >> 2; y << 2 < reach.most.y; ++y)
-            for (i32 z = reach.least.z >> 2; z << 2 < reach.most.z; ++z)
-                for (i32 x = reach.least.x >> 2; x << 2 < reach.most.x; ++x)
-                    note({x, y, z});
+        note(clipped(reach, window));
     }
     changed_.clear(), touched_.clear();
 }

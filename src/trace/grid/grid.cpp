@@ -494,6 +494,10 @@ GridView Grid::plain_view() const {
     g.indices = indices_.data();
     g.tints = tints_.data();
     g.skips = skips_.data();
+    g.skip_shift_z = g.bits_x + 2, g.skip_shift_y = g.bits_x + g.bits_z + 4;
+    g.skip_x = (16u << g.bits_x) - 4;
+    g.skip_z = ((16u << g.bits_z) - 4) << g.skip_shift_z;
+    g.skip_y = ((16u << g.bits_y) - 4) << g.skip_shift_y;
     g.least = least_;
     g.extent_x = extent_[0], g.extent_y = extent_[1], g.extent_z = extent_[2];
     return g;

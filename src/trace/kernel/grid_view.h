@@ -36,8 +36,10 @@ struct GridView {
     const u32* palettes = nullptr;
     const u64* indices = nullptr;
     const u32* tints = nullptr;
-    // By slot * 64 + brick: how far rays through air may step from there (brick_skip), or where the brick's mask is.
+    // By skip_index: how far rays through air may step from a brick (brick_skip), or where its mask is.
     const u32* skips = nullptr;
+    // Of a cell in the window, as a byte in `skips`: x & skip_x | z << skip_shift_z & skip_z | y << skip_shift_y & skip_y.
+    u32 skip_x = 0, skip_y = 0, skip_z = 0, skip_shift_y = 0, skip_shift_z = 0;
     // Chunks that stop rays through air lie in least .. least + extent - 1: a ray that is past them is out.
     IVec3 least;
     u32 extent_x = 0, extent_y = 0, extent_z = 0;
@@ -51,6 +53,13 @@ inline constexpr u32 kSkipMost = 8; // bricks
 
 VX_HD u32 brick_skip(u32 word, u32 octant) { // bricks, 1..kSkipMost
     return (word >> 3 * octant & 7) + 1;
+}
+
+// Bricks of the window lie in rows of x, then z, then y; it wraps around as slots do. brick: of the world.
+VX_HD u32 skip_index(const GridView& g, IVec3 brick) {
+    const u32 x = u32(brick.x) * 4 & g.skip_x, z = u32(brick.z) * 4 << g.skip_shift_z & g.skip_z,
+              y = u32(brick.y) * 4 << g.skip_shift_y & g.skip_y;
+    return (x | z | y) >> 2;
 }
 
 inline constexpr u32 kTintWords = 108; // grass, foliage, water: 36 sRGB RGBA8 texels each (scene/tint_grid.h)

@@ -1,5 +1,5 @@
 // The next cell that matters to a ray: one flat loop that steps over empty areas, chunks, bricks and cells alike.
-// Kernel-safe.
+// Rays through air have a faster one (trace/kernel/air_walk.h). Kernel-safe.
 #pragma once
 
 #include "trace/kernel/grid_view.h"
@@ -73,37 +73,9 @@ VX_HD IVec3 skip_planes(const Walk& w, IVec3 cell, u32 word) {
     return {plane(cell.x, w.x, w.up & 1), plane(cell.y, w.y, w.up & 2), plane(cell.z, w.z, w.up & 4)};
 }
 
-// Moves to the next cell, beyond the one it is in, that stops a ray through air; by GridView::skips.
-VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, double t_most, u32& steps) {
-    const IVec3 first{g.least.x * 16, g.least.y * 16, g.least.z * 16},
-        size{i32(g.extent_x * 16), i32(g.extent_y * 16), i32(g.extent_z * 16)};
-    bool fresh = true;
-    for (;;) {
-        const IVec3 cell = w.cell();
-        if (u32(cell.x) - u32(first.x) >= u32(size.x) || u32(cell.y) - u32(first.y) >= u32(size.y) ||
-            u32(cell.z) - u32(first.z) >= u32(size.z)) {
-            if (!approach(first, size, ray, w)) return Walked::ended;
-        } else {
-            const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
-            const u32 word = g.skips[slot_of(g, {cell.x >> 4, cell.y >> 4, cell.z >> 4}) * 64 + brick];
-            if (word & kBrickStops) {
-                const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
-                if (g.masks[word & ~kBrickStops] >> bit & 1 && !fresh) return Walked::stopped;
-                step_cell(w);
-            } else {
-                leave_box(w, ray, skip_planes(w, cell, word));
-            }
-        }
-        fresh = false;
-        if (!(w.t < t_most)) return Walked::ended;
-        if (steps-- == 0) return Walked::lost;
-    }
-}
-
 // Moves to the next cell, beyond the one it is in, that stops the ray; ended: none that is entered before t_most.
 // `steps` counts down. Outside of the window there is air: a ray in another medium stops there.
 VX_HD Walked next_stop(const GridView& g, const Ray& ray, Walk& w, Seek seek, double t_most, u32& steps) {
-    if (seek == Seek::air && g.skips) return next_in_air(g, ray, w, t_most, steps);
     bool fresh = true;
     for (;;) {
         const IVec3 cell = w.cell();

@@ -7,6 +7,7 @@
 // A ray has to be told the medium that it starts in (SceneView::media); it is believed.
 #pragma once
 
+#include "trace/kernel/air_walk.h"
 #include "trace/kernel/box_hit.h"
 #include "trace/kernel/cell_hit.h"
 
@@ -16,8 +17,14 @@ VX_HD Seek seek_in(const SceneView& s, u32 medium) {
     return medium == 0 ? Seek::air : s.media[medium].kind == 1 ? Seek::water : Seek::any;
 }
 
+VX_HD Walked go_on(const GridView& g, const Ray& ray, Walk& w, Seek seek, float t_max, u32& steps) {
+    if (seek == Seek::air && g.skips) return next_in_air(g, ray, w, t_max);
+    return next_stop(g, ray, w, seek, double(t_max), steps);
+}
+
 // What the start cell can show from inside.
 VX_HD bool looks_in(const SceneView& s, IVec3 cell) {
+    if (s.grid.skips && !stops_air(s.grid, cell)) return false; // as most do: less is read
     const StateRecord& r = s.states[state_at(s.grid, cell)];
     return r.quads != 0 || r.medium != 0 || has_sheets(r);
 }
@@ -37,7 +44,7 @@ VX_HD bool closest_from(const SceneView& s, const Ray& ray, Walk& w, bool look, 
                 return true;
             }
         }
-        const Walked walked = next_stop(s.grid, ray, w, seek, double(t_max), steps);
+        const Walked walked = go_on(s.grid, ray, w, seek, t_max, steps);
         if (walked == Walked::lost) {
             hit = Hit{};
             hit.kind = HitKind::unknown;
@@ -73,6 +80,32 @@ VX_HD bool passes_light(const SceneView& s, const Hit& hit) {
            optics == u32(Optics::water);
 }
 
+// Looks into the cell where a walk stands, in `medium`, which becomes what is behind. True: the ray ends there.
+template <class OnPane>
+VX_HD bool leaves_dark(const SceneView& s, const Ray& ray, const Walk& w, float t_max, u32& medium,
+                       CellProgress& progress, OnPane&& pane) {
+    Hit hit;
+    u32 behind;
+    while (meet_cell(s, ray, w, medium, t_max, progress, hit, behind)) {
+        if (!passes_light(s, hit) || pane(static_cast<const Hit&>(hit))) return true;
+        medium = behind;
+    }
+    return false;
+}
+
+// Goes on from a cell that has been looked into.
+template <class OnPane>
+VX_HD bool shadowed_from(const SceneView& s, const Ray& ray, Walk& w, float t_max, u32 medium, OnPane&& pane) {
+    u32 steps = kCellsMost;
+    for (;;) {
+        const Walked walked = go_on(s.grid, ray, w, seek_in(s, medium), t_max, steps);
+        if (walked != Walked::stopped) return walked == Walked::lost;
+        CellProgress progress;
+        const Walk here = w; // as in closest_from
+        if (leaves_dark(s, ray, here, t_max, medium, progress, pane)) return true;
+    }
+}
+
 // True: something opaque lies before t_max, or pane said so. pane(const Hit&) -> bool is called, in order along the
 // ray, for each border that light may pass (media, thin glass, water, leaves).
 template <class OnPane>
@@ -80,20 +113,12 @@ VX_HD bool shadowed(const SceneView& s, const Ray& ray, float t_max, u32 medium,
     Hit hit;
     if (meet_boxes(s, ray, t_max, true, hit)) return true;
     Walk w = start_walk(ray);
-    u32 steps = kCellsMost, behind;
-    CellProgress progress;
-    bool look = looks_in(s, w.cell());
-    for (;;) {
-        const Walk here = w; // as in closest_from
-        while (look && meet_cell(s, ray, here, medium, t_max, progress, hit, behind)) {
-            if (!passes_light(s, hit) || pane(static_cast<const Hit&>(hit))) return true;
-            medium = behind;
-        }
-        const Walked walked = next_stop(s.grid, ray, w, seek_in(s, medium), double(t_max), steps);
-        if (walked != Walked::stopped) return walked == Walked::lost;
-        progress = CellProgress{};
-        look = true;
+    if (looks_in(s, w.cell())) {
+        CellProgress progress;
+        const Walk here = w;
+        if (leaves_dark(s, ray, here, t_max, medium, progress, pane)) return true;
     }
+    return shadowed_from(s, ray, w, t_max, medium, pane);
 }
 
 } // namespace vitrail::trace

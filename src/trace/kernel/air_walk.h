@@ -1,0 +1,252 @@
+// The walk of a ray through air, as next_stop (trace/kernel/grid_walk.h) wants it, in few instructions: what a GPU
+// spends on rays is little else. Kernel-safe.
+//
+// Cells, and the planes crossed, are those that walk.h finds in double, always; only most of its decisions are made in
+// float, and where float is not sure of one that step is walk.h's own (step_exactly). Distances of stops are computed
+// in double, from the plane.
+//
+// Coordinates are mirrored on axes where the ray runs down (cell ~c, place -at), so that all rays run up: the planes
+// ahead are the upper ones, and a ray that is in the range of chunks that hold anything leaves it once, at a distance
+// that is known beforehand. Mirrored cells are held as the bits of a float, 2^23 + cell, with the cell taken from an
+// origin that the window's size divides: one word is integer and float alike, its low bits say where in the (wrapping)
+// window the cell is, and adding 2^23 to a place rounds it to its cell.
+//
+// What float may get wrong. u = 2^-24 is half a unit in the last place; a component of a direction is 1.1 at most.
+// - Distance t of a plane: (cell - start) is exact, less the place in its cell 1 u, times an inverse with 1 u: 3 u of t
+//   in all. Two of them are told apart where they differ by more than 6 u: kTie is 8 u.
+// - Place on an axis at the distance t where another axis' plane is met, p = at + dir t. From t 3 u |dir t|; dir, the
+//   product and two sums round by 1 u each, of |dir t|, the sums also by 1 u of the place in the start cell, and
+//   walk.h looks closer where it finds less than 1e-7 (1.7 u) to an integer: in all less than 8 u (t + 1), kNear. Where
+//   p - kNear (t + 1) and p + kNear (t + 1) are in one cell, p is.
+#pragma once
+
+#include "trace/kernel/grid_walk.h"
+
+namespace vitrail::trace {
+
+struct AirWalk {
+    u32 x, y, z;      // bits of 2^23 + mirrored cell
+    u32 axis;         // crossed last; 3: none yet
+    Vec3 origin;      // 2^23 + cell, less origin: relative to the start, mirrored (-1 is the start cell of a mirrored axis)
+    Vec3 at, inverse; // mirrored
+    Vec3 low, dir;    // where the ray is, less half a block, at distance t: between low + t dir and kNear 2 (t + 1) more
+    float end;        // distance up to which the ray surely goes on and stays in range
+    u32 flip;         // mirrored axes: bits of the byte in GridView::skips,
+    u32 flip_bit;     // and of the cell in its brick
+    u32 octant_shift; // of the octant's bits in a skip word
+};
+
+inline constexpr u32 kCellBits = 0x4b000000; // of 2^23
+inline constexpr float kTie = 1.0f / (1 << 21), kNear = 1.0f / (1 << 21);
+inline constexpr float kAirMost = 1e28f; // distances beyond are walk.h's; planes that are never met are at 5e29 or more
+
+VX_HD u32 bits_of(float f) {
+    return __builtin_bit_cast(u32, f);
+}
+VX_HD float float_of(u32 bits) {
+    return __builtin_bit_cast(float, bits);
+}
+
+// One axis. cell: now, of the world, in the range least .. least + size - 1; r: relative to the start.
+VX_HD void start_air_axis(float from, float speed, u32 cell, i32 r, u32 least, u32 size, u32 window, u32& q,
+                          float& origin, float& at, float& inverse, float& low, float& dir, float& end, bool& down) {
+    const float fast = std::fabs(speed);
+    const bool still = !(fast > kDirLeast);
+    down = !still && speed < 0;
+    const u32 sign = down ? ~0u : 0u;
+    at = still ? 0.5f : down ? -from : from;
+    inverse = still ? 1e30f : 1 / fast;
+    dir = (still ? 0.0f : fast) - kNear;
+    low = at - (0.5f + kNear);
+    const u32 mirrored = ((cell ^ sign) & (window - 1)) + window; // not 0: sums that are rounded stay above 2^23
+    q = kCellBits + mirrored;
+    origin = float(i32((1u << 23) + mirrored - (u32(r) ^ sign)));
+    const u32 inside = cell - least, ahead = down ? inside + 1 : size - inside;
+    const float out = ((float_of(q + ahead) - origin) - at) * inverse;
+    end = out < end ? out : end;
+}
+
+// What the walk of a ray needs that is now in a cell `r`, relative to its start, having crossed `axis` last. The cell is
+// in range (in_air_range).
+VX_HD AirWalk start_air(const GridView& g, const Ray& ray, IVec3 r, u32 axis, float t_max) {
+    AirWalk w;
+    const IVec3 c = ray.from.cell;
+    float end = t_max < kAirMost ? t_max : kAirMost;
+    bool x, y, z;
+    start_air_axis(ray.from.at.x, ray.dir.x, u32(c.x) + u32(r.x), r.x, u32(g.least.x) * 16, g.extent_x * 16,
+                   16u << g.bits_x, w.x, w.origin.x, w.at.x, w.inverse.x, w.low.x, w.dir.x, end, x);
+    start_air_axis(ray.from.at.y, ray.dir.y, u32(c.y) + u32(r.y), r.y, u32(g.least.y) * 16, g.extent_y * 16,
+                   16u << g.bits_y, w.y, w.origin.y, w.at.y, w.inverse.y, w.low.y, w.dir.y, end, y);
+    start_air_axis(ray.from.at.z, ray.dir.z, u32(c.z) + u32(r.z), r.z, u32(g.least.z) * 16, g.extent_z * 16,
+                   16u << g.bits_z, w.z, w.origin.z, w.at.z, w.inverse.z, w.low.z, w.dir.z, end, z);
+    w.end = end * (1 - kTie);
+    w.flip = (x ? g.skip_x : 0u) | (y ? g.skip_y : 0u) | (z ? g.skip_z : 0u);
+    w.flip_bit = (x ? 3u : 0u) | (z ? 12u : 0u) | (y ? 48u : 0u);
+    w.octant_shift = (x ? 0u : 3u) + (y ? 0u : 6u) + (z ? 0u : 12u);
+    w.axis = axis;
+    return w;
+}
+
+VX_HD u32 skip_word(const GridView& g, const AirWalk& w) {
+    const u32 byte = (w.x & g.skip_x) ^ w.flip ^ (w.z << g.skip_shift_z & g.skip_z) ^ (w.y << g.skip_shift_y & g.skip_y);
+    return *reinterpret_cast<const u32*>(reinterpret_cast<const u8*>(g.skips) + byte);
+}
+VX_HD u32 mask_bit(const AirWalk& w) {
+    return ((w.x & 3) | (w.z << 2 & 12) | (w.y << 4 & 48)) ^ w.flip_bit;
+}
+
+enum class AirStep : u8 {
+    moved,   // to the next cell that may matter
+    stopped, // the cell stops rays through air
+    unsure,  // walk.h has to make this step; or it ends the way, or leaves the range
+};
+
+// Where it has not moved the walk is as it was.
+VX_HD AirStep step_air(const GridView& g, AirWalk& w) {
+    const u32 word = skip_word(g, w);
+    const bool filled = (word & kBrickStops) != 0;
+    bool stop = false;
+    if (filled) stop = g.masks[word & ~kBrickStops] >> mask_bit(w) & 1;
+    if (stop) return AirStep::stopped;
+    // The box to leave: a cell, or a cube of empty bricks.
+    const u32 keep = filled ? ~0u : ~3u, far = filled ? 1u : (word >> w.octant_shift & 7) * 4 + 4;
+    const u32 px = (w.x & keep) + far, py = (w.y & keep) + far, pz = (w.z & keep) + far;
+    const float tx = ((float_of(px) - w.origin.x) - w.at.x) * w.inverse.x,
+                ty = ((float_of(py) - w.origin.y) - w.at.y) * w.inverse.y,
+                tz = ((float_of(pz) - w.origin.z) - w.at.z) * w.inverse.z;
+    const float xy = tx < ty ? tx : ty, first = tz < xy ? tz : xy;
+    const float most = first * (1 + kTie) + 1e-36f;
+    const bool by_x = tx <= most, by_y = ty <= most, by_z = tz <= most;
+    // Where the ray is then.
+    const float wide = first * (2 * kNear) + 2 * kNear;
+    const float lx = w.low.x + w.dir.x * first, ly = w.low.y + w.dir.y * first, lz = w.low.z + w.dir.z * first;
+    const u32 x = bits_of(lx + w.origin.x), y = bits_of(ly + w.origin.y), z = bits_of(lz + w.origin.z);
+    const bool in_x = x == bits_of(lx + wide + w.origin.x), in_y = y == bits_of(ly + wide + w.origin.y),
+               in_z = z == bits_of(lz + wide + w.origin.z);
+    const bool one = by_x ? !by_y & !by_z : by_y != by_z;
+    const bool sure = one & (first < w.end) & (filled | ((by_x | in_x) & (by_y | in_y) & (by_z | in_z)));
+    if (!sure) return AirStep::unsure;
+    w.x = by_x ? px : filled ? w.x : x;
+    w.y = by_y ? py : filled ? w.y : y;
+    w.z = by_z ? pz : filled ? w.z : z;
+    w.axis = by_z ? 2u : by_y ? 1u : 0u;
+    return AirStep::moved;
+}
+
+// The cell, relative to the start.
+VX_HD IVec3 cell_of(const AirWalk& w) {
+    const auto axis = [](u32 q, float origin, bool down) {
+        const i32 r = i32(float_of(q) - origin);
+        return down ? ~r : r;
+    };
+    return {axis(w.x, w.origin.x, w.flip_bit & 3), axis(w.y, w.origin.y, w.flip_bit & 48),
+            axis(w.z, w.origin.z, w.flip_bit & 12)};
+}
+// Goes on in another cell.
+VX_HD void put_cell(AirWalk& w, IVec3 r, u32 axis) {
+    const auto bits = [](i32 c, float origin, bool down) { return bits_of(float(down ? ~c : c) + origin); };
+    w.x = bits(r.x, w.origin.x, w.flip_bit & 3);
+    w.y = bits(r.y, w.origin.y, w.flip_bit & 48);
+    w.z = bits(r.z, w.origin.z, w.flip_bit & 12);
+    w.axis = axis;
+}
+
+VX_HD bool in_air_range(const GridView& g, IVec3 cell) {
+    return u32(cell.x) - u32(g.least.x) * 16 < g.extent_x * 16 && u32(cell.y) - u32(g.least.y) * 16 < g.extent_y * 16 &&
+           u32(cell.z) - u32(g.least.z) * 16 < g.extent_z * 16;
+}
+
+// A walk in a cell where it has come by way of `axis`.
+VX_HD Walk walk_in(const Ray& ray, IVec3 r, u32 axis) {
+    Walk w = start_walk(ray);
+    w.x = r.x, w.y = r.y, w.z = r.z, w.axis = axis;
+    const bool up = w.up >> axis & 1;
+    if (axis != 3) w.t = axis == 0 ? plane_x(w, r.x + !up) : axis == 1 ? plane_y(w, r.y + !up) : plane_z(w, r.z + !up);
+    return w;
+}
+
+// Distance at which walk_in's walk has come into its cell, and the face (Face order).
+VX_HD double stop_distance(const Ray& ray, IVec3 r, u32 axis) {
+    double a, inverse;
+    start_axis(axis == 0 ? ray.from.at.x : axis == 1 ? ray.from.at.y : ray.from.at.z,
+               axis == 0 ? ray.dir.x : axis == 1 ? ray.dir.y : ray.dir.z, a, inverse);
+    const i32 c = axis == 0 ? r.x : axis == 1 ? r.y : r.z;
+    return (double(c + (inverse > 0 ? 0 : 1)) - a) * inverse;
+}
+VX_HD u32 face_of(const AirWalk& w) {
+    const u32 down = w.axis == 0 ? w.flip_bit & 3 : w.axis == 1 ? w.flip_bit & 48 : w.flip_bit & 12;
+    return w.axis * 2 + (down ? 1 : 0);
+}
+
+// A place on a ray, without what follows from the ray.
+struct AirPlace {
+    IVec3 r;     // relative to the start
+    u32 axis;    // crossed last
+    bool inside; // false: the way ends before t_max
+};
+
+// From any cell on: as step_air does it, in double, up to a cell in range.
+VX_HD_CALL AirPlace step_exactly(const GridView& g, const Ray& ray, AirPlace from, float t_max) {
+    Walk w = walk_in(ray, from.r, from.axis);
+    const IVec3 first{g.least.x * 16, g.least.y * 16, g.least.z * 16},
+        size{i32(g.extent_x * 16), i32(g.extent_y * 16), i32(g.extent_z * 16)};
+    u32 steps = kCellsMost;
+    do {
+        const IVec3 cell = w.cell();
+        if (!in_air_range(g, cell)) {
+            if (!approach(first, size, ray, w) || steps-- == 0) return {{0, 0, 0}, 3, false};
+        } else {
+            const u32 word = g.skips[skip_index(g, {cell.x >> 2, cell.y >> 2, cell.z >> 2})];
+            if (word & kBrickStops)
+                step_cell(w);
+            else
+                leave_box(w, ray, skip_planes(w, cell, word));
+        }
+        if (!(w.t < double(t_max))) return {{0, 0, 0}, 3, false};
+    } while (!in_air_range(g, w.cell()));
+    return {{w.x, w.y, w.z}, w.axis, true};
+}
+
+// A cell that stops rays through air is an opaque cube and nothing more.
+VX_HD bool opaque_in(const GridView& g, const AirWalk& w) {
+    // Bricks and chunks in the window, from the low bits of cells as skip_x and its like have them.
+    const u32 x = (w.x & g.skip_x) ^ (w.flip & g.skip_x),
+              z = ((w.z << g.skip_shift_z & g.skip_z) ^ (w.flip & g.skip_z)) >> g.skip_shift_z,
+              y = ((w.y << g.skip_shift_y & g.skip_y) ^ (w.flip & g.skip_y)) >> g.skip_shift_y;
+    const GridChunk& c = g.chunks[x >> 4 | z >> 4 << g.bits_x | y >> 4 << (g.bits_x + g.bits_z)];
+    const u32 brick = (x >> 2 & 3) | (z >> 2 & 3) << 2 | (y >> 2 & 3) << 4;
+    return g.masks[c.opaque * 64 + brick] >> mask_bit(w) & 1;
+}
+
+// Moves to the next cell, beyond the one it is in, that stops a ray through air; ended: none that is entered before
+// t_max. By GridView::skips, which there have to be.
+VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max) {
+    const IVec3 from{w.x, w.y, w.z};
+    AirPlace p{from, w.axis, true};
+    if (!in_air_range(g, w.cell())) p = step_exactly(g, ray, p, t_max);
+    if (!p.inside) return Walked::ended;
+    AirWalk a = start_air(g, ray, p.r, p.axis, t_max);
+    for (;;) {
+        AirStep step = step_air(g, a);
+        while (step == AirStep::moved)
+            step = step_air(g, a);
+        p = {cell_of(a), a.axis, true};
+        if (step == AirStep::stopped && !(p.r == from)) {
+            w = walk_in(ray, p.r, p.axis);
+            return Walked::stopped;
+        }
+        p = step_exactly(g, ray, p, t_max);
+        if (!p.inside) return Walked::ended;
+        put_cell(a, p.r, p.axis);
+    }
+}
+
+// The cell stops rays through air.
+VX_HD bool stops_air(const GridView& g, IVec3 cell) {
+    if (!in_air_range(g, cell)) return false;
+    const u32 word = g.skips[skip_index(g, {cell.x >> 2, cell.y >> 2, cell.z >> 2})];
+    if (!(word & kBrickStops)) return false;
+    return g.masks[word & ~kBrickStops] >> (u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4) & 1;
+}
+
+} // namespace vitrail::trace
