@@ -1,6 +1,6 @@
 // Streams of rays through air, 16 lanes wide (AVX-512), several groups of lanes in flight so that their loads overlap.
 //
-// A lane makes the same steps as next_in_air (trace/kernel/grid_walk.h), in float; where float is not sure which plane
+// A lane makes the same steps as next_in_air (trace/kernel/air_walk.h), in float; where float is not sure which plane
 // comes first or on which side of a plane the ray is, that lane's step is made by the scalar code instead, in double.
 // So cells are the same, always. What was met is told apart by scalar code too, and where a ray passes what is in a
 // cell (a plant, a hole between leaves, a slope of water) it queues for lanes again.
@@ -198,8 +198,7 @@ VX_HD void load_words(Group& g, const GridView& grid, const Range& range) {
     __m512i byte = bits(cell[0], grid.skip_x);
     byte = _mm512_or_si512(byte, bits(left(cell[2], grid.skip_shift_z), grid.skip_z));
     byte = _mm512_or_si512(byte, bits(left(cell[1], grid.skip_shift_y), grid.skip_y));
-    g.word =
-        _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), on, byte, reinterpret_cast<const int*>(grid.skips), 1);
+    g.word = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), on, byte, reinterpret_cast<const int*>(grid.skips), 1);
     g.bit = _mm512_or_si512(_mm512_or_si512(bits(cell[0], 3), _mm512_slli_epi32(bits(cell[2], 3), 2)),
                             _mm512_slli_epi32(bits(cell[1], 3), 4));
 }

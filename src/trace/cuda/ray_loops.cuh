@@ -120,7 +120,6 @@ public:
         : scene(s)
         , job(j) {}
 
-
     // Sets out, or is done at once.
     __device__ __noinline__ void begin(u32 id, RayLane& lane) const {
         lane.id = start(id, lane.t_max, lane.walk) ? id : kNoRay;
@@ -131,7 +130,8 @@ public:
             lane.id = kNoRay;
             return;
         }
-        const AirPlace p = step_exactly(scene.grid, job.ray(lane.id), {cell_of(lane.walk), lane.walk.axis, true}, lane.t_max);
+        const AirPlace p =
+            step_exactly(scene.grid, job.ray(lane.id), {cell_of(lane.walk), lane.walk.axis, true}, lane.t_max);
         if (p.inside)
             put_cell(lane.walk, p.r, p.axis);
         else
@@ -193,7 +193,6 @@ public:
         : scene(s)
         , job(j) {}
 
-
     // Sets out, or is done at once.
     __device__ __noinline__ void begin(u32 id, RayLane& lane) const {
         lane.id = start(id, lane.t_max, lane.walk) ? id : kNoRay;
@@ -204,7 +203,8 @@ public:
             lane.id = kNoRay;
             return;
         }
-        const AirPlace p = step_exactly(scene.grid, job.ray(lane.id), {cell_of(lane.walk), lane.walk.axis, true}, lane.t_max);
+        const AirPlace p =
+            step_exactly(scene.grid, job.ray(lane.id), {cell_of(lane.walk), lane.walk.axis, true}, lane.t_max);
         if (p.inside)
             put_cell(lane.walk, p.r, p.axis);
         else
@@ -216,7 +216,7 @@ private:
         const Ray ray = job.ray(id);
         t_max = job.t_max(id);
         if (job.medium(id) != 0 || !scene.grid.skips) {
-            job.shaded(id, shadowed(scene, ray, t_max, job.medium(id), pane_of(id)));
+            job.shaded(id, all_the_way(id, ray, t_max));
             return false;
         }
         if (scene.box_count != 0) {
@@ -242,11 +242,17 @@ private:
         CellProgress progress;
         bool dark = leaves_dark(scene, ray, at, t_max, medium, progress, pane_of(id));
         if (!dark && medium == 0) return false;
-        if (!dark) dark = shadowed_from(scene, ray, at, t_max, medium, pane_of(id));
+        if (!dark) dark = go_on_in(id, ray, at, t_max, medium);
         job.shaded(id, dark);
         return true;
     }
     __device__ __forceinline__ void none(u32 id) const { job.shaded(id, false); }
+    __device__ __noinline__ bool all_the_way(u32 id, const Ray& ray, float t_max) const {
+        return shadowed(scene, ray, t_max, job.medium(id), pane_of(id));
+    }
+    __device__ __noinline__ bool go_on_in(u32 id, const Ray& ray, Walk& w, float t_max, u32 medium) const {
+        return shadowed_from(scene, ray, w, t_max, medium, pane_of(id));
+    }
     __device__ __forceinline__ auto pane_of(u32 id) const {
         return [this, id](const Hit& hit) { return job.pane(id, hit); };
     }

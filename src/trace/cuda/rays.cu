@@ -29,13 +29,15 @@ struct ArrayJob {
 
 template <class Feed, u32 kBlocks>
 __global__ void __launch_bounds__(kBlock, kBlocks)
-    closest_kernel(const __grid_constant__ SceneView scene, const ArrayJob job, const Feed feed, u32 wait) {
+    closest_kernel(const __grid_constant__ SceneView scene, const __grid_constant__ ArrayJob job, const Feed feed,
+                   u32 wait) {
     closest_rays(scene, feed, wait, job);
 }
 
 template <class Feed, u32 kBlocks>
 __global__ void __launch_bounds__(kBlock, kBlocks)
-    shadows_kernel(const __grid_constant__ SceneView scene, const ArrayJob job, const Feed feed, u32 wait) {
+    shadows_kernel(const __grid_constant__ SceneView scene, const __grid_constant__ ArrayJob job, const Feed feed,
+                   u32 wait) {
     shadow_rays(scene, feed, wait, job);
 }
 
@@ -145,12 +147,16 @@ const char* ray_variant_name(u32 variant) {
 
 void launch_closest(const SceneView& scene, const Ray* rays, u32 count, u32 medium, Hit* hits, u32* counter,
                     cudaStream_t stream, u32 variant) {
-    if (count) kVariants[variant].launch({scene, {rays, medium, hits, nullptr}, count, counter, false, kVariants[variant].wait, stream});
+    if (count)
+        kVariants[variant].launch(
+            {scene, {rays, medium, hits, nullptr}, count, counter, false, kVariants[variant].wait, stream});
 }
 
 void launch_shadows(const SceneView& scene, const Ray* rays, u32 count, u32 medium, u8* lit, u32* counter,
                     cudaStream_t stream, u32 variant) {
-    if (count) kVariants[variant].launch({scene, {rays, medium, nullptr, lit}, count, counter, true, kVariants[variant].wait, stream});
+    if (count)
+        kVariants[variant].launch(
+            {scene, {rays, medium, nullptr, lit}, count, counter, true, kVariants[variant].wait, stream});
 }
 
 } // namespace vitrail::trace::cuda

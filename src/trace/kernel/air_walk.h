@@ -25,14 +25,14 @@
 namespace vitrail::trace {
 
 struct AirWalk {
-    u32 x, y, z;      // bits of 2^23 + mirrored cell
-    u32 axis;         // crossed last; 3: none yet
-    Vec3 origin;      // 2^23 + cell, less origin: relative to the start, mirrored (-1 is the start cell of a mirrored axis)
+    u32 x, y, z; // bits of 2^23 + mirrored cell
+    u32 axis;    // crossed last; 3: none yet
+    Vec3 origin; // 2^23 + cell, less origin: relative to the start, mirrored (-1 is the start cell of a mirrored axis)
     Vec3 at, inverse; // mirrored
-    Vec3 low, dir;    // where the ray is, less half a block, at distance t: between low + t dir and kNear 2 (t + 1) more
-    float end;        // distance up to which the ray surely goes on and stays in range
-    u32 flip;         // mirrored axes: bits of the byte in GridView::skips,
-    u32 flip_bit;     // and of the cell in its brick
+    Vec3 low, dir; // where the ray is, less half a block, at distance t: between low + t dir and kNear 2 (t + 1) more
+    float end;     // distance up to which the ray surely goes on and stays in range
+    u32 flip;      // mirrored axes: bits of the byte in GridView::skips,
+    u32 flip_bit;  // and of the cell in its brick
     u32 octant_shift; // of the octant's bits in a skip word
 };
 
@@ -66,8 +66,8 @@ VX_HD void start_air_axis(float from, float speed, u32 cell, i32 r, u32 least, u
     end = out < end ? out : end;
 }
 
-// What the walk of a ray needs that is now in a cell `r`, relative to its start, having crossed `axis` last. The cell is
-// in range (in_air_range).
+// What the walk of a ray needs that is now in a cell `r`, relative to its start, having crossed `axis` last. The cell
+// is in range (in_air_range).
 VX_HD AirWalk start_air(const GridView& g, const Ray& ray, IVec3 r, u32 axis, float t_max) {
     AirWalk w;
     const IVec3 c = ray.from.cell;
@@ -88,33 +88,43 @@ VX_HD AirWalk start_air(const GridView& g, const Ray& ray, IVec3 r, u32 axis, fl
 }
 
 VX_HD u32 skip_word(const GridView& g, const AirWalk& w) {
-    const u32 byte = (w.x & g.skip_x) ^ w.flip ^ (w.z << g.skip_shift_z & g.skip_z) ^ (w.y << g.skip_shift_y & g.skip_y);
+    const u32 byte =
+        (w.x & g.skip_x) ^ w.flip ^ (w.z << g.skip_shift_z & g.skip_z) ^ (w.y << g.skip_shift_y & g.skip_y);
     return *reinterpret_cast<const u32*>(reinterpret_cast<const u8*>(g.skips) + byte);
 }
 VX_HD u32 mask_bit(const AirWalk& w) {
     return ((w.x & 3) | (w.z << 2 & 12) | (w.y << 4 & 48)) ^ w.flip_bit;
 }
 
-enum class AirStep : u8 {
+enum class AirStep : u32 {
     moved,   // to the next cell that may matter
     stopped, // the cell stops rays through air
     unsure,  // walk.h has to make this step; or it ends the way, or leaves the range
 };
 
-// Where it has not moved the walk is as it was.
+VX_HD float lesser(float a, float b) {
+#ifdef __CUDA_ARCH__
+    return fminf(a, b); // an instruction
+#else
+    return a < b ? a : b;
+#endif
+}
+
+// Where it has not moved the walk is as it was. No branches: lanes of a GPU do all parts anyway.
 VX_HD AirStep step_air(const GridView& g, AirWalk& w) {
     const u32 word = skip_word(g, w);
-    const bool filled = (word & kBrickStops) != 0;
-    bool stop = false;
-    if (filled) stop = g.masks[word & ~kBrickStops] >> mask_bit(w) & 1;
-    if (stop) return AirStep::stopped;
+    const bool filled = i32(word) < 0;
+    static_assert(kBrickStops == 1u << 31);
+    u64 mask = 0;
+    if (filled) mask = g.masks[word & ~kBrickStops];
+    const bool stop = (u32(mask >> mask_bit(w)) & 1) != 0;
     // The box to leave: a cell, or a cube of empty bricks.
     const u32 keep = filled ? ~0u : ~3u, far = filled ? 1u : (word >> w.octant_shift & 7) * 4 + 4;
     const u32 px = (w.x & keep) + far, py = (w.y & keep) + far, pz = (w.z & keep) + far;
     const float tx = ((float_of(px) - w.origin.x) - w.at.x) * w.inverse.x,
                 ty = ((float_of(py) - w.origin.y) - w.at.y) * w.inverse.y,
                 tz = ((float_of(pz) - w.origin.z) - w.at.z) * w.inverse.z;
-    const float xy = tx < ty ? tx : ty, first = tz < xy ? tz : xy;
+    const float first = lesser(lesser(tx, ty), tz);
     const float most = first * (1 + kTie) + 1e-36f;
     const bool by_x = tx <= most, by_y = ty <= most, by_z = tz <= most;
     // Where the ray is then.
@@ -123,14 +133,15 @@ VX_HD AirStep step_air(const GridView& g, AirWalk& w) {
     const u32 x = bits_of(lx + w.origin.x), y = bits_of(ly + w.origin.y), z = bits_of(lz + w.origin.z);
     const bool in_x = x == bits_of(lx + wide + w.origin.x), in_y = y == bits_of(ly + wide + w.origin.y),
                in_z = z == bits_of(lz + wide + w.origin.z);
-    const bool one = by_x ? !by_y & !by_z : by_y != by_z;
+    const bool one = (by_x != by_y) != by_z && !(by_x & by_y);
     const bool sure = one & (first < w.end) & (filled | ((by_x | in_x) & (by_y | in_y) & (by_z | in_z)));
-    if (!sure) return AirStep::unsure;
-    w.x = by_x ? px : filled ? w.x : x;
-    w.y = by_y ? py : filled ? w.y : y;
-    w.z = by_z ? pz : filled ? w.z : z;
-    w.axis = by_z ? 2u : by_y ? 1u : 0u;
-    return AirStep::moved;
+    if (sure & !stop) {
+        w.x = by_x ? px : filled ? w.x : x;
+        w.y = by_y ? py : filled ? w.y : y;
+        w.z = by_z ? pz : filled ? w.z : z;
+        w.axis = by_z ? 2u : by_y ? 1u : 0u;
+    }
+    return stop ? AirStep::stopped : sure ? AirStep::moved : AirStep::unsure;
 }
 
 // The cell, relative to the start.
@@ -168,8 +179,13 @@ VX_HD Walk walk_in(const Ray& ray, IVec3 r, u32 axis) {
 // Distance at which walk_in's walk has come into its cell, and the face (Face order).
 VX_HD double stop_distance(const Ray& ray, IVec3 r, u32 axis) {
     double a, inverse;
-    start_axis(axis == 0 ? ray.from.at.x : axis == 1 ? ray.from.at.y : ray.from.at.z,
-               axis == 0 ? ray.dir.x : axis == 1 ? ray.dir.y : ray.dir.z, a, inverse);
+    start_axis(axis == 0   ? ray.from.at.x
+               : axis == 1 ? ray.from.at.y
+                           : ray.from.at.z,
+               axis == 0   ? ray.dir.x
+               : axis == 1 ? ray.dir.y
+                           : ray.dir.z,
+               a, inverse);
     const i32 c = axis == 0 ? r.x : axis == 1 ? r.y : r.z;
     return (double(c + (inverse > 0 ? 0 : 1)) - a) * inverse;
 }

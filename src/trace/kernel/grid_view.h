@@ -38,7 +38,8 @@ struct GridView {
     const u32* tints = nullptr;
     // By skip_index: how far rays through air may step from a brick (brick_skip), or where its mask is.
     const u32* skips = nullptr;
-    // Of a cell in the window, as a byte in `skips`: x & skip_x | z << skip_shift_z & skip_z | y << skip_shift_y & skip_y.
+    // Of a cell in the window, as a byte in `skips`: x & skip_x | z << skip_shift_z & skip_z | y << skip_shift_y &
+    // skip_y.
     u32 skip_x = 0, skip_y = 0, skip_z = 0, skip_shift_y = 0, skip_shift_z = 0;
     // Chunks that stop rays through air lie in least .. least + extent - 1: a ray that is past them is out.
     IVec3 least;
