@@ -60,8 +60,7 @@ struct FromCounter {
 struct RayLane {
     u32 id = kNoRay;
     float t_max = 0;
-    AirStep step = AirStep::moved; // what the last step came to
-    AirWalk walk;
+    AirWalk walk{};
 };
 
 // What closest_rays and shadow_rays share. Lanes lie in (local) memory, but while they step: all else that a ray does
@@ -87,17 +86,12 @@ __device__ __forceinline__ void run_rays(const GridView& grid, Feed feed, u32 wa
         }
         const u32 least = count > wait ? count - wait : 0;
         AirWalk w = lane.walk;
-        AirStep step = AirStep::moved;
         u32 left;
         do {
-            if (running) {
-                step = step_air(grid, w);
-                running = step == AirStep::moved;
-            }
+            running = step_air(grid, w, running);
             left = u32(__popc(__ballot_sync(~0u, running)));
         } while (left > least);
         lane.walk.x = w.x, lane.walk.y = w.y, lane.walk.z = w.z, lane.walk.axis = w.axis;
-        lane.step = step;
         if (id != kNoRay && !running) {
             look.look(lane);
             id = lane.id;
@@ -126,7 +120,7 @@ public:
     }
     // After a step that did not move.
     __device__ __noinline__ void look(RayLane& lane) const {
-        if (lane.step == AirStep::stopped && stop(lane.id, lane.t_max, lane.walk)) {
+        if (stops_here(scene.grid, lane.walk) && stop(lane.id, lane.t_max, lane.walk)) {
             lane.id = kNoRay;
             return;
         }
@@ -199,7 +193,7 @@ public:
     }
     // After a step that did not move.
     __device__ __noinline__ void look(RayLane& lane) const {
-        if (lane.step == AirStep::stopped && stop(lane.id, lane.t_max, lane.walk)) {
+        if (stops_here(scene.grid, lane.walk) && stop(lane.id, lane.t_max, lane.walk)) {
             lane.id = kNoRay;
             return;
         }
