@@ -88,46 +88,6 @@ void wrong_hits(bench::Context& c) {
     c.report(double(wrong));
 }
 
-// All variants of the kernels on all sets, as a table: the best of the launches, and wrong hits.
-void variants(bench::Context& c) {
-    DeviceLand& d = device_land();
-    if (!d.probe) return c.skip(d.why_not);
-    u64 all_wrong = 0;
-    for (u32 v = 0;; ++v) {
-        const std::string name = d.probe->set_variant(v);
-        if (name.empty()) break;
-        std::string row = fmt::format("{:3} {:28}", v, name);
-        u64 wrong = 0;
-        for (int which = 0; which < 4; ++which) {
-            const bench::RaySet& set = d.sets[which];
-            if (const auto done = d.probe->set_rays(set.rays); !done) return c.skip(done.error().message);
-            double best = 1e30;
-            for (int i = 0; i < 8; ++i) {
-                const auto ms = which == 3 ? d.probe->shadows(0) : d.probe->closest(0);
-                if (!ms) return c.skip(name + ": " + ms.error().message);
-                best = std::min(best, *ms);
-            }
-            row += fmt::format(" {:7.2f}", double(set.rays.size()) / best * 1e-6);
-            if (which == 3) {
-                const auto lit = d.probe->lit();
-                if (!lit) return c.skip(lit.error().message);
-                for (std::size_t i = 0; i < set.hits.size(); ++i)
-                    wrong += ((*lit)[i] != 0) != (set.hits[i].kind == HitKind::nothing);
-                continue;
-            }
-            const auto hits = d.probe->hits();
-            if (!hits) return c.skip(hits.error().message);
-            for (std::size_t i = 0; i < set.hits.size(); ++i) {
-                const Hit &a = (*hits)[i], &b = set.hits[i];
-                wrong += a.kind != b.kind || a.cell != b.cell || a.face != b.face || a.state != b.state || a.t != b.t;
-            }
-        }
-        fmt::print("{}  wrong {}\n", row, wrong);
-        all_wrong += wrong;
-    }
-    c.report(double(all_wrong));
-}
-
 bench::TracedLand* traced_land(bench::Context& c, bool stages = false) {
     static auto plain = bench::TracedLand::open({.device = Device::cuda});
     static auto told = bench::TracedLand::open({.device = Device::cuda, .stages = true});
@@ -187,7 +147,6 @@ void register_trace_cuda_benches(bench::Suite& suite) {
     suite.add("trace.cuda.bounce2", "Grays/s", "and on from there", [](bench::Context& c) { rays(c, 2); });
     suite.add("trace.cuda.shadow", "Grays/s", "to the sun", [](bench::Context& c) { rays(c, 3); });
     suite.add("trace.cuda.wrong", "hits", "that are not the CPU's, of all these rays", wrong_hits);
-    suite.add("trace.cuda.variants", "wrong", "kernels of rays: Grays/s of primary, bounces, shadow", variants);
     suite.add("path.cuda", "Mpaths/s", "854x480, 4 bounces", paths);
     suite.add("denoise.cuda", "ms", "1920x1080, walking", [](bench::Context& c) { frames(c, Part::film, false); });
     suite.add("frame.cuda", "ms", "1920x1080, 1 sample, 4 bounces, denoised, walking",

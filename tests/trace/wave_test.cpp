@@ -19,6 +19,7 @@ using namespace trace::cuda;
 struct WaveCount {
     u64 rays = 0, paths = 0;
     u32 left = 0; // paths that went on one by one
+    u64 hard = 0; // rays without an easy way
 };
 
 // The order of paths.cu. shuffle: queues are read in another order, as a device does.
@@ -47,7 +48,10 @@ WaveCount run_wave(const PathJob& job, u32 most, u32 shuffle) {
             EXPECT_LE(now.rays.n, plan.paths);
             mix(wave.going[round & 1], now.rays.n);
             for (u32 i = 0; i < now.rays.n; ++i)
-                closest_step(j, round, wave.going[round & 1][i], append);
+                easy_closest_step(j, round, wave.going[round & 1][i], append);
+            for (u32 i = 0; i < now.hard.n; ++i)
+                closest_step(j, round, wave.going[(round + 1) & 1][i], append);
+            count.hard += now.hard.n;
             EXPECT_LE(now.met.n + now.missed.n, now.rays.n);
             for (u32 i = 0; i < now.missed.n; ++i)
                 event_step<false>(j, round, wave.ends[wave.paths - 1 - i], append);
@@ -56,7 +60,9 @@ WaveCount run_wave(const PathJob& job, u32 most, u32 shuffle) {
                 event_step<true>(j, round, wave.ends[i], append);
             EXPECT_LE(now.lights.n, plan.paths * plan.lights_each);
             for (u32 i = 0; i < now.lights.n; ++i)
-                light_step(j, shuffle ? now.lights.n - 1 - i : i);
+                easy_light_step(j, round, shuffle ? now.lights.n - 1 - i : i, append);
+            for (u32 i = 0; i < now.hard_lights.n; ++i)
+                light_step(j, wave.hard_lights[i]);
             count.rays += now.rays.n + now.lights.n;
         }
         count.left += wave.rounds[plan.rounds].rays.n;

@@ -77,13 +77,15 @@ enum class FilmLayer : u8 { color, albedo, normal, distance, samples };
 u32 channels_of(FilmLayer layer);
 void launch_read(const FilmPlanes& film, const FilmFrame& frame, FilmLayer layer, float* to, CUstream_st* stream);
 
-// Rays by themselves. lit: 1 where nothing opaque lies before kFar; panes are passed. counter: for the launch's use.
-u32 ray_variants();
-const char* ray_variant_name(u32 variant);
-inline constexpr u32 kRayVariant = 13;
-void launch_closest(const SceneView& scene, const Ray* rays, u32 count, u32 medium, Hit* hits, u32* counter,
-                    CUstream_st* stream, u32 variant);
-void launch_shadows(const SceneView& scene, const Ray* rays, u32 count, u32 medium, u8* lit, u32* counter,
-                    CUstream_st* stream, u32 variant);
+// Rays by themselves. lit: 1 where nothing opaque lies before kFar; panes are passed. hard: for the launch's use, room
+// for as many as there are rays.
+struct RayList {
+    u32* ids;
+    u32* count;
+};
+void launch_closest(const SceneView& scene, const Ray* rays, u32 count, u32 medium, Hit* hits, const RayList& hard,
+                    CUstream_st* stream);
+void launch_shadows(const SceneView& scene, const Ray* rays, u32 count, u32 medium, u8* lit, const RayList& hard,
+                    CUstream_st* stream);
 
 } // namespace vitrail::trace::cuda

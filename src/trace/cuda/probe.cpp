@@ -63,20 +63,19 @@ public:
         VX_TRY(rays_.make(gpus_[0], rays.size_bytes()));
         VX_TRY(hits_.make(gpus_[0], rays.size() * sizeof(Hit)));
         VX_TRY(lit_.make(gpus_[0], rays.size()));
+        VX_TRY(hard_.make(gpus_[0], rays.size() * sizeof(u32)));
         return check(cudaMemcpy(rays_.as(), rays.data(), rays.size_bytes(), cudaMemcpyHostToDevice), "copying rays");
     }
     Result<double> closest(u32 medium) override {
         VX_TRY(gpus_[0].use());
         VX_TRY(watch_.start());
-        launch_closest(mirror_.scene(0), rays_.as<Ray>(), count_, medium, hits_.as<Hit>(), counter_.as<u32>(),
-                       gpus_[0].stream, variant_);
+        launch_closest(mirror_.scene(0), rays_.as<Ray>(), count_, medium, hits_.as<Hit>(), list(), gpus_[0].stream);
         return watch_.stop();
     }
     Result<double> shadows(u32 medium) override {
         VX_TRY(gpus_[0].use());
         VX_TRY(watch_.start());
-        launch_shadows(mirror_.scene(0), rays_.as<Ray>(), count_, medium, lit_.as<u8>(), counter_.as<u32>(),
-                       gpus_[0].stream, variant_);
+        launch_shadows(mirror_.scene(0), rays_.as<Ray>(), count_, medium, lit_.as<u8>(), list(), gpus_[0].stream);
         return watch_.stop();
     }
     Result<std::vector<Hit>> hits() override {
@@ -89,19 +88,16 @@ public:
         VX_TRY(check(cudaMemcpy(out.data(), lit_.as(), count_, cudaMemcpyDeviceToHost), "reading shadows"));
         return out;
     }
-    std::string set_variant(u32 variant) override {
-        if (variant >= ray_variants()) return {};
-        variant_ = variant;
-        return ray_variant_name(variant);
-    }
     u64 sent_bytes() const override { return mirror_.sent_bytes(); }
 
 private:
     std::array<Gpu, 1> gpus_;
     SceneMirror mirror_{gpus_};
     Stopwatch watch_{gpus_[0]};
-    DeviceBytes rays_, hits_, lit_, counter_;
-    u32 count_ = 0, variant_ = kRayVariant;
+    RayList list() const { return {hard_.as<u32>(), counter_.as<u32>()}; }
+
+    DeviceBytes rays_, hits_, lit_, hard_, counter_; // hard: see launch_closest
+    u32 count_ = 0;
 };
 
 class FilmAlone final : public FilmProbe {

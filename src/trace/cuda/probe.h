@@ -28,8 +28,7 @@ public:
     // Of the last closest, shadows.
     virtual Result<std::vector<Hit>> hits() = 0;
     virtual Result<std::vector<u8>> lit() = 0;
-    virtual std::string set_variant(u32 variant) = 0; // its name; empty: there is none
-    virtual u64 sent_bytes() const = 0;               // of the scene, since open
+    virtual u64 sent_bytes() const = 0; // of the scene, since open
 };
 
 class FilmProbe {

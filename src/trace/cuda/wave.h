@@ -28,6 +28,8 @@ struct WaveRound {
     Count missed; // paths that leave for the sky, from its back
     Count lights; // rays to lights that its events send
     Count lights_taken;
+    Count hard, hard_taken;               // rays whose way is not easy: in the place of the next round's paths
+    Count hard_lights, hard_lights_taken; // rays to lights, likewise: Wave::hard_lights
 };
 
 inline constexpr u32 kWaveMost = 1u << 21; // paths of a batch: a picture of 1920x1080 is one
@@ -41,6 +43,7 @@ struct Wave {
     Word4* light = nullptr; // planes of paths * lights_each
     u32* going[2] = {};     // numbers of paths with a ray to trace: of even and of odd rounds
     u32* ends = nullptr;
+    u32* hard_lights = nullptr;  // places of rays to lights
     WaveRound* rounds = nullptr; // kRoundsMost + 1
 };
 

@@ -28,6 +28,7 @@ Wave lay_out(const WavePlan& plan, Layout& to) {
     w.sum = to.take<Word4>(n * Wave::kSumWords);
     w.light = to.take<Word4>(n * plan.lights_each * Wave::kLightWords);
     w.going[0] = to.take<u32>(n), w.going[1] = to.take<u32>(n), w.ends = to.take<u32>(n);
+    w.hard_lights = to.take<u32>(n * plan.lights_each);
     return w;
 }
 

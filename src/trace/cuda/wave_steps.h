@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trace/cuda/wave.h"
+#include "trace/kernel/lean_walk.h"
 
 // The compiler leaves out what follows from the opposite.
 #ifdef __CUDA_ARCH__
@@ -46,6 +47,19 @@ VX_HD void closest_step(const WaveJob& j, u32 round, u32 path, Append&& append) 
     sort_hit(j, round, path, hit, append);
 }
 
+// The same for rays with an easy way; the others go to a list for closest_step. Events will put the next round's paths
+// where the list lies.
+template <class Append>
+VX_HD void easy_closest_step(const WaveJob& j, u32 round, u32 path, Append&& append) {
+    u32 medium;
+    const Ray ray = load_ray(j.wave, path, medium);
+    Hit hit;
+    if (lean_closest(j.job.scene, ray, medium, hit))
+        sort_hit(j, round, path, hit, append);
+    else
+        j.wave.going[(round + 1) & 1][append(j.wave.rounds[round].hard.n)] = path;
+}
+
 // Event of a path whose ray met something, or nothing: by kernels of their own, each with half of path_event.
 template <bool Met, class Append>
 VX_HD void event_step(const WaveJob& j, u32 round, u32 path, Append&& append) {
@@ -79,6 +93,20 @@ VX_HD void light_step(const WaveJob& j, u32 place) {
     LightRay r = load_light(j.wave, place, path, purse);
     if (light_passes(j.job.scene, r.ray, r.distance, r.medium, r.value))
         add_light_ray(j.wave, path, purse, r.counts, r.value, j.job.settings);
+}
+
+// The same for rays with an easy way; the others go to a list for light_step.
+template <class Append>
+VX_HD void easy_light_step(const WaveJob& j, u32 round, u32 place, Append&& append) {
+    u32 path;
+    Purse purse;
+    const LightRay r = load_light(j.wave, place, path, purse);
+    const float most = light_reach(r.distance);
+    const LeanEnd end = most > 0 ? lean_shadow(j.job.scene, r.ray, most, r.medium) : LeanEnd::hard;
+    if (end == LeanEnd::passed)
+        add_light_ray(j.wave, path, purse, r.counts, r.value, j.job.settings);
+    else if (end == LeanEnd::hard)
+        j.wave.hard_lights[append(j.wave.rounds[round].hard_lights.n)] = place;
 }
 
 // A path that needs more rounds than there are goes on to its end. Returns the rays that were traced.

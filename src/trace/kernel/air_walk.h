@@ -236,14 +236,6 @@ VX_HD bool opaque_in(const GridView& g, const AirWalk& w) {
     return g.masks[c.opaque * 64 + brick] >> mask_bit(w) & 1;
 }
 
-// The cell stops rays through air.
-VX_HD bool stops_air(const GridView& g, IVec3 cell) {
-    if (!in_air_range(g, cell)) return false;
-    const u32 word = g.skips[skip_index(g, {cell.x >> 2, cell.y >> 2, cell.z >> 2})];
-    if (!(word & kBrickStops)) return false;
-    return g.masks[word & ~kBrickStops] >> (u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4) & 1;
-}
-
 // Moves to the next cell, beyond the one it is in, that stops a ray through air; ended: none that is entered before
 // t_max. By GridView::skips, which there have to be. In double where that is faster: on CPUs.
 VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max) {

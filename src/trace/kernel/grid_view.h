@@ -96,4 +96,12 @@ VX_HD u32 state_at(const GridView& g, IVec3 cell) {
     return state_in(g, g.chunks[slot_of(g, chunk)], u32(cell.x & 15) | u32(cell.z & 15) << 4 | u32(cell.y & 15) << 8);
 }
 
+// A cell that stops rays through air; false outside of the window.
+VX_HD bool stops_air(const GridView& g, IVec3 cell) {
+    const IVec3 chunk{cell.x >> 4, cell.y >> 4, cell.z >> 4};
+    if (!in_window(g, chunk)) return false;
+    const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
+    const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
+    return g.masks[g.chunks[slot_of(g, chunk)].masks[u32(Through::air)] * 64 + brick] >> bit & 1;
+}
 } // namespace vitrail::trace

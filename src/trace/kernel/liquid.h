@@ -20,22 +20,32 @@ struct LiquidTop {
     VX_HD bool level() const { return slope.h00 == slope.h10 && slope.h00 == slope.h11 && slope.h00 == slope.h01; }
 };
 
-// What scene/liquid_surface.h asks of a cell. Without a branch: the look-ups of nine cells go on at once.
-VX_HD i32 liquid_in(const SceneView& s, IVec3 cell, u32 medium) {
-    const StateRecord &r = s.states[state_at(s.grid, cell)],
-                      &above = s.states[state_at(s.grid, {cell.x, cell.y + 1, cell.z})];
-    const i32 own = i32(r.liquid_height) + 1, height = above.medium == medium ? scene::kLiquidUnderLiquid : own;
-    return r.medium == medium ? height : scene::kLiquidNone;
+// States of nine cells of a level, x then z. In the middle of a chunk its record is read once, and the look-ups do not
+// wait for each other.
+VX_HD void states_around(const GridView& g, IVec3 middle, u32 (&out)[9]) {
+    const u32 x = u32(middle.x & 15), z = u32(middle.z & 15);
+    const IVec3 chunk{middle.x >> 4, middle.y >> 4, middle.z >> 4};
+    if (x - 1 >= 14 || z - 1 >= 14 || !in_window(g, chunk)) {
+        for (i32 i = 0; i < 9; ++i)
+            out[i] = state_at(g, {middle.x + i % 3 - 1, middle.y, middle.z + i / 3 - 1});
+        return;
+    }
+    const GridChunk& c = g.chunks[slot_of(g, chunk)];
+    const u32 first = u32(middle.y & 15) << 8 | (z - 1) << 4 | (x - 1);
+    if (c.bits == 0) {
+        const u32 state = g.palettes[c.palette];
+        for (u32 i = 0; i < 9; ++i)
+            out[i] = state;
+        return;
+    }
+    for (u32 i = 0; i < 9; ++i) {
+        const u32 bit = (first + i % 3 + (i / 3 << 4)) * c.bits;
+        out[i] = u32(g.indices[c.indices + (bit >> 6)] >> (bit & 63)) & ((1u << c.bits) - 1);
+    }
+    for (u32 i = 0; i < 9; ++i)
+        out[i] = g.palettes[c.palette + out[i]];
 }
 
-// A cell that stops rays through air; false outside of the window.
-VX_HD bool stops_air(const GridView& g, IVec3 cell) {
-    const IVec3 chunk{cell.x >> 4, cell.y >> 4, cell.z >> 4};
-    if (!in_window(g, chunk)) return false;
-    const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
-    const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
-    return g.masks[g.chunks[slot_of(g, chunk)].masks[u32(Through::air)] * 64 + brick] >> bit & 1;
-}
 // A way through a fluid's cell, between these heights in it, is all above the surface, as few look-ups tell: rays that
 // water mirrors flatly pass hundreds of such cells. False: not known.
 VX_HD bool above_liquid(const SceneView& s, IVec3 cell, u32 medium, float y_in, float y_out) {
@@ -44,22 +54,28 @@ VX_HD bool above_liquid(const SceneView& s, IVec3 cell, u32 medium, float y_in, 
     bool open = true;
     for (i32 z = -1; z <= 1; ++z)
         for (i32 x = -1; x <= 1; ++x)
-            open = open && !stops_air(s.grid, {cell.x + x, cell.y + 1, cell.z + z});
+            open &= !stops_air(s.grid, {cell.x + x, cell.y + 1, cell.z + z});
     return open;
 }
 
 // The cell holds the fluid.
 VX_HD LiquidTop liquid_top(const SceneView& s, IVec3 cell, u32 medium) {
     LiquidTop top;
-    top.full = s.states[state_at(s.grid, {cell.x, cell.y + 1, cell.z})].medium == medium;
+    u32 here[9], above[9];
+    states_around(s.grid, {cell.x, cell.y + 1, cell.z}, above);
+    top.full = s.states[above[4]].medium == medium;
     if (top.full) {
         top.slope = {scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull};
         return top;
     }
-    // Each of the nine cells once.
-    i32 of[9];
-    for (i32 i = 0; i < 9; ++i)
-        of[i] = liquid_in(s, {cell.x + i % 3 - 1, cell.y, cell.z + i / 3 - 1}, medium);
+    states_around(s.grid, cell, here);
+    i32 of[9]; // what scene/liquid_surface.h asks of each
+    for (u32 i = 0; i < 9; ++i) {
+        const StateRecord& r = s.states[here[i]];
+        const i32 own = i32(r.liquid_height) + 1,
+                  height = s.states[above[i]].medium == medium ? scene::kLiquidUnderLiquid : own;
+        of[i] = r.medium == medium ? height : scene::kLiquidNone;
+    }
     top.slope = scene::liquid_slope([&](i32 dx, i32 dz) { return of[(dx + 1) + (dz + 1) * 3]; });
     return top;
 }
