@@ -67,7 +67,7 @@ TEST(AirWalk, EqualsTheWalkInDouble) {
                 // From outside, near and far.
                 const i32 away = i32(2u << rng.below(18)), half = GridWorld::kSize / 2;
                 const IVec3 aim = ray.from.cell, o = world.corner();
-                const auto off = [&](i32 c) { return i32(u32(c) + u32(half) + rng.below(u32(away) * 2)) - away; };
+                const auto off = [&](i32 c) { return i32(u32(c) + u32(half) + rng.below(u32(away) * 2) - u32(away)); };
                 ray.from.cell = {off(o.x), off(o.y), off(o.z)};
                 if (i % 2) ray.dir = normalized(offset(ray.from, {aim, {0.5f, 0.5f, 0.5f}}));
                 compare(g, ray, all);
