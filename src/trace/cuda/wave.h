@@ -9,8 +9,6 @@
 #include "trace/cuda/launch.h"
 #include "trace/kernel/path.h"
 
-#include <bit>
-
 namespace vitrail::trace::cuda {
 
 struct alignas(16) Word4 {
@@ -92,12 +90,6 @@ VX_HD PathSettings settings_at(const PathJob& j, u32 x, u32 y) {
 
 // ---- Packing.
 
-VX_HD u32 bits_of(float f) {
-    return std::bit_cast<u32>(f);
-}
-VX_HD float float_of(u32 u) {
-    return std::bit_cast<float>(u);
-}
 VX_HD Word4 words_of(Vec3 v, u32 w) {
     return {bits_of(v.x), bits_of(v.y), bits_of(v.z), w};
 }
