@@ -136,6 +136,7 @@ void compare(const TestScene& s, const Means& m, const WaveCount& count) {
     }
     EXPECT_EQ(count.rays, rays);
     EXPECT_EQ(count.paths, paths);
+    EXPECT_LT(count.hard, count.rays * 3 / 4) << "hardly a ray has an easy way";
 }
 
 class WaveScenes : public testing::TestWithParam<SceneName> {};

@@ -232,8 +232,7 @@ VX_HD bool opaque_in(const GridView& g, const AirWalk& w) {
               z = ((w.z << g.skip_shift_z & g.skip_z) ^ (w.flip & g.skip_z)) >> g.skip_shift_z,
               y = ((w.y << g.skip_shift_y & g.skip_y) ^ (w.flip & g.skip_y)) >> g.skip_shift_y;
     const GridChunk& c = g.chunks[x >> 4 | z >> 4 << g.bits_x | y >> 4 << (g.bits_x + g.bits_z)];
-    const u32 brick = (x >> 2 & 3) | (z >> 2 & 3) << 2 | (y >> 2 & 3) << 4;
-    return g.masks[c.opaque * 64 + brick] >> mask_bit(w) & 1;
+    return g.masks[c.opaque * 64 + brick_of({i32(x), i32(y), i32(z)})] >> mask_bit(w) & 1;
 }
 
 // Moves to the next cell, beyond the one it is in, that stops a ray through air; ended: none that is entered before
@@ -265,8 +264,7 @@ VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max
         if (in_air_range(g, cell)) {
             const u32 word = g.skips[skip_index(g, {cell.x >> 2, cell.y >> 2, cell.z >> 2})];
             if (word & kBrickStops) {
-                const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
-                if (g.masks[word & ~kBrickStops] >> bit & 1 && !fresh) return Walked::stopped;
+                if (g.masks[word & ~kBrickStops] >> bit_of(cell) & 1 && !fresh) return Walked::stopped;
                 step_cell(w);
             } else {
                 leave_box(w, ray, skip_planes(w, cell, word));

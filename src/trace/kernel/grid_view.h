@@ -81,13 +81,13 @@ VX_HD u32 area_slot_of(const GridView& g, IVec3 chunk) {
     return x | z << (g.bits_x - 2) | y << (g.bits_x + g.bits_z - 4);
 }
 
-VX_HD u32 state_in(const GridView& g, const GridChunk& c, u32 cell) { // cell: LocalPos::index
-    u32 index = 0;
-    if (c.bits) {
-        const u32 bit = cell * c.bits;
-        index = u32(g.indices[c.indices + (bit >> 6)] >> (bit & 63)) & ((1u << c.bits) - 1);
-    }
-    return g.palettes[c.palette + index];
+// In its palette, of a chunk that is not uniform. cell: LocalPos::index.
+VX_HD u32 palette_index(const GridView& g, const GridChunk& c, u32 cell) {
+    const u32 bit = cell * c.bits;
+    return u32(g.indices[c.indices + (bit >> 6)] >> (bit & 63)) & ((1u << c.bits) - 1);
+}
+VX_HD u32 state_in(const GridView& g, const GridChunk& c, u32 cell) {
+    return g.palettes[c.palette + (c.bits ? palette_index(g, c, cell) : 0)];
 }
 // 0 (air) outside of the window and where nothing is held.
 VX_HD u32 state_at(const GridView& g, IVec3 cell) {
@@ -96,12 +96,20 @@ VX_HD u32 state_at(const GridView& g, IVec3 cell) {
     return state_in(g, g.chunks[slot_of(g, chunk)], u32(cell.x & 15) | u32(cell.z & 15) << 4 | u32(cell.y & 15) << 8);
 }
 
+// Numbers, as above, of a cell's brick in its chunk, and of the cell in its brick.
+VX_HD u32 brick_of(IVec3 cell) {
+    return u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
+}
+VX_HD u32 bit_of(IVec3 cell) {
+    return u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
+}
+
 // A cell that stops rays through air; false outside of the window.
 VX_HD bool stops_air(const GridView& g, IVec3 cell) {
     const IVec3 chunk{cell.x >> 4, cell.y >> 4, cell.z >> 4};
     if (!in_window(g, chunk)) return false;
-    const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
-    const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
-    return g.masks[g.chunks[slot_of(g, chunk)].masks[u32(Through::air)] * 64 + brick] >> bit & 1;
+    const u32 block = g.chunks[slot_of(g, chunk)].masks[u32(Through::air)];
+    return g.masks[block * 64 + brick_of(cell)] >> bit_of(cell) & 1;
 }
+
 } // namespace vitrail::trace

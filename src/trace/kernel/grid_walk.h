@@ -19,10 +19,9 @@ VX_HD u32 empty_box(const GridView& g, IVec3 cell, Through through, bool& stop) 
     const IVec3 chunk{cell.x >> 4, cell.y >> 4, cell.z >> 4};
     const GridChunk& c = g.chunks[slot_of(g, chunk)];
     if (c.bricks[set] == 0) return g.areas[set][area_slot_of(g, chunk)] == 0 ? 6 : 4;
-    const u32 brick = u32(cell.x >> 2 & 3) | u32(cell.z >> 2 & 3) << 2 | u32(cell.y >> 2 & 3) << 4;
+    const u32 brick = brick_of(cell);
     if (!(c.bricks[set] >> brick & 1)) return 2;
-    const u32 bit = u32(cell.x & 3) | u32(cell.z & 3) << 2 | u32(cell.y & 3) << 4;
-    stop = g.masks[c.masks[set] * 64 + brick] >> bit & 1;
+    stop = g.masks[c.masks[set] * 64 + brick] >> bit_of(cell) & 1;
     return 0;
 }
 

@@ -28,9 +28,8 @@ VX_HD LeanEnd lean_walk(const SceneView& s, const Ray& ray, float t_max, u32 med
         w.end = kAirMost;
         if (!step_air(g, w)) return LeanEnd::hard;
         w.end = end;
-        const IVec3 r = cell_of(w), c = ray.from.cell;
-        if (!in_air_range(g, {i32(u32(c.x) + u32(r.x)), i32(u32(c.y) + u32(r.y)), i32(u32(c.z) + u32(r.z))}))
-            return LeanEnd::passed; // it comes in range once at most
+        const IVec3 r = cell_of(w);
+        if (!in_air_range(g, cell_off(ray.from.cell, r))) return LeanEnd::passed; // it comes in range once at most
         if (t_max < kFar && !(stop_distance(ray, r, w.axis) < double(t_max))) return LeanEnd::passed;
     }
 }
@@ -41,8 +40,7 @@ VX_HD bool lean_closest(const SceneView& s, const Ray& ray, u32 medium, Hit& hit
     const LeanEnd end = lean_walk(s, ray, kFar, medium, w);
     if (end == LeanEnd::passed) hit = Hit{};
     if (end != LeanEnd::stopped) return end == LeanEnd::passed;
-    const IVec3 r = cell_of(w), c = ray.from.cell;
-    const IVec3 cell{i32(u32(c.x) + u32(r.x)), i32(u32(c.y) + u32(r.y)), i32(u32(c.z) + u32(r.z))};
+    const IVec3 r = cell_of(w), cell = cell_off(ray.from.cell, r);
     const u32 state = state_at(s.grid, cell);
     if (s.states[state].kind != CellKind::cube) return false;
     face_hit(hit, stop_distance(ray, r, w.axis), cell, state, face_of(w), false);

@@ -38,10 +38,8 @@ VX_HD void states_around(const GridView& g, IVec3 middle, u32 (&out)[9]) {
             out[i] = state;
         return;
     }
-    for (u32 i = 0; i < 9; ++i) {
-        const u32 bit = (first + i % 3 + (i / 3 << 4)) * c.bits;
-        out[i] = u32(g.indices[c.indices + (bit >> 6)] >> (bit & 63)) & ((1u << c.bits) - 1);
-    }
+    for (u32 i = 0; i < 9; ++i)
+        out[i] = palette_index(g, c, first + i % 3 + (i / 3 << 4));
     for (u32 i = 0; i < 9; ++i)
         out[i] = g.palettes[c.palette + out[i]];
 }

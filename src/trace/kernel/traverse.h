@@ -17,7 +17,8 @@ VX_HD Seek seek_in(const SceneView& s, u32 medium) {
     return medium == 0 ? Seek::air : s.media[medium].kind == 1 ? Seek::water : Seek::any;
 }
 
-VX_HD Walked go_on(const GridView& g, const Ray& ray, Walk& w, Seek seek, float t_max, u32& steps) {
+// The next cell to look into.
+VX_HD Walked next_look(const GridView& g, const Ray& ray, Walk& w, Seek seek, float t_max, u32& steps) {
     if (seek == Seek::air && g.skips) return next_in_air(g, ray, w, t_max);
     return next_stop(g, ray, w, seek, double(t_max), steps);
 }
@@ -29,9 +30,14 @@ VX_HD bool looks_in(const SceneView& s, IVec3 cell) {
     return r.quads != 0 || r.medium != 0 || has_sheets(r);
 }
 
-// Goes on from where a walk stands. look: into that cell first. hit, found: what is known already (a box).
-VX_HD bool closest_from(const SceneView& s, const Ray& ray, Walk& w, bool look, float t_max, u32 medium, bool found,
-                        Hit& hit) {
+// The nearest border or surface before t_max. False: nothing; or, with HitKind::unknown, the ray passed more than
+// kCellsMost boxes of cells.
+VX_HD_CALL bool closest_hit(const SceneView& s, const Ray& ray, float t_max, u32 medium, Hit& hit) {
+    hit = Hit{};
+    bool found = false;
+    if (meet_boxes(s, ray, t_max, false, hit)) t_max = hit.t, found = true;
+    Walk w = start_walk(ray);
+    bool look = looks_in(s, w.cell());
     const Seek seek = seek_in(s, medium);
     u32 steps = kCellsMost, behind;
     for (;;) {
@@ -44,7 +50,7 @@ VX_HD bool closest_from(const SceneView& s, const Ray& ray, Walk& w, bool look, 
                 return true;
             }
         }
-        const Walked walked = go_on(s.grid, ray, w, seek, t_max, steps);
+        const Walked walked = next_look(s.grid, ray, w, seek, t_max, steps);
         if (walked == Walked::lost) {
             hit = Hit{};
             hit.kind = HitKind::unknown;
@@ -53,16 +59,6 @@ VX_HD bool closest_from(const SceneView& s, const Ray& ray, Walk& w, bool look, 
         if (walked == Walked::ended) return found;
         look = true;
     }
-}
-
-// The nearest border or surface before t_max. False: nothing; or, with HitKind::unknown, the ray passed more than
-// kCellsMost boxes of cells.
-VX_HD_CALL bool closest_hit(const SceneView& s, const Ray& ray, float t_max, u32 medium, Hit& hit) {
-    hit = Hit{};
-    bool found = false;
-    if (meet_boxes(s, ray, t_max, false, hit)) t_max = hit.t, found = true;
-    Walk w = start_walk(ray);
-    return closest_from(s, ray, w, looks_in(s, w.cell()), t_max, medium, found, hit);
 }
 
 // Light may pass what was hit, perhaps weakened.
@@ -80,32 +76,6 @@ VX_HD bool passes_light(const SceneView& s, const Hit& hit) {
            optics == u32(Optics::water);
 }
 
-// Looks into the cell where a walk stands, in `medium`, which becomes what is behind. True: the ray ends there.
-template <class OnPane>
-VX_HD bool leaves_dark(const SceneView& s, const Ray& ray, const Walk& w, float t_max, u32& medium,
-                       CellProgress& progress, OnPane&& pane) {
-    Hit hit;
-    u32 behind;
-    while (meet_cell(s, ray, w, medium, t_max, progress, hit, behind)) {
-        if (!passes_light(s, hit) || pane(static_cast<const Hit&>(hit))) return true;
-        medium = behind;
-    }
-    return false;
-}
-
-// Goes on from a cell that has been looked into.
-template <class OnPane>
-VX_HD bool shadowed_from(const SceneView& s, const Ray& ray, Walk& w, float t_max, u32 medium, OnPane&& pane) {
-    u32 steps = kCellsMost;
-    for (;;) {
-        const Walked walked = go_on(s.grid, ray, w, seek_in(s, medium), t_max, steps);
-        if (walked != Walked::stopped) return walked == Walked::lost;
-        CellProgress progress;
-        const Walk here = w; // as in closest_from
-        if (leaves_dark(s, ray, here, t_max, medium, progress, pane)) return true;
-    }
-}
-
 // True: something opaque lies before t_max, or pane said so. pane(const Hit&) -> bool is called, in order along the
 // ray, for each border that light may pass (media, thin glass, water, leaves).
 template <class OnPane>
@@ -113,12 +83,19 @@ VX_HD bool shadowed(const SceneView& s, const Ray& ray, float t_max, u32 medium,
     Hit hit;
     if (meet_boxes(s, ray, t_max, true, hit)) return true;
     Walk w = start_walk(ray);
-    if (looks_in(s, w.cell())) {
+    u32 steps = kCellsMost, behind;
+    bool look = looks_in(s, w.cell());
+    for (;;) {
         CellProgress progress;
-        const Walk here = w;
-        if (leaves_dark(s, ray, here, t_max, medium, progress, pane)) return true;
+        const Walk here = w; // as in closest_hit
+        while (look && meet_cell(s, ray, here, medium, t_max, progress, hit, behind)) {
+            if (!passes_light(s, hit) || pane(static_cast<const Hit&>(hit))) return true;
+            medium = behind;
+        }
+        const Walked walked = next_look(s.grid, ray, w, seek_in(s, medium), t_max, steps);
+        if (walked != Walked::stopped) return walked == Walked::lost;
+        look = true;
     }
-    return shadowed_from(s, ray, w, t_max, medium, pane);
 }
 
 } // namespace vitrail::trace

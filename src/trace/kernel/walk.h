@@ -16,6 +16,11 @@ namespace vitrail::trace {
 inline constexpr float kDirLeast = 1e-18f; // a direction's smaller components count as 0
 inline constexpr i32 kReach = 1 << 20;     // blocks; planes farther off are not told apart
 
+// The cell that lies so far from `start`; the world wraps around.
+VX_HD IVec3 cell_off(IVec3 start, IVec3 r) {
+    return {i32(u32(start.x) + u32(r.x)), i32(u32(start.y) + u32(r.y)), i32(u32(start.z) + u32(r.z))};
+}
+
 struct Walk {
     double ax, ay, az; // where the ray starts, in its cell
     double ix, iy, iz; // 1 / direction
@@ -25,9 +30,7 @@ struct Walk {
     u32 axis;          // crossed last; 3: none yet
     double t;          // of that plane, 0 at first
 
-    VX_HD IVec3 cell() const {
-        return {i32(u32(start.x) + u32(x)), i32(u32(start.y) + u32(y)), i32(u32(start.z) + u32(z))};
-    }
+    VX_HD IVec3 cell() const { return cell_off(start, {x, y, z}); }
     // Face of the cell by which the ray came in, Face order.
     VX_HD u32 face() const { return axis * 2 + (up >> axis & 1 ? 0 : 1); }
 };
