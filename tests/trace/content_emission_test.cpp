@@ -1,7 +1,8 @@
-// Lamps of the base content light a wall one block away as emission.h promises, by rays through the grid.
+// Lamps of the base content light a wall that faces them as emission.h promises, by rays through the grid.
 #include "tests/trace/content_fixture.h"
 
 #include "math/color.h"
+#include "scene/lamp_light.h"
 #include "trace/content/emission.h"
 #include "trace/kernel/surface.h"
 #include "trace/kernel/traverse.h"
@@ -12,15 +13,16 @@
 namespace vitrail::trace {
 namespace {
 
-// Irradiance over pi in the middle of a wall one block from the cell, at its side `face`: even steps over the picture
-// that the cell makes on the plane before the wall.
-Vec3 wall_return(const SceneView& scene, IVec3 cell, u32 face, u32 steps) {
+// Irradiance over pi in the middle of a wall `distance` blocks from the cell's middle, at its side `face`: even steps
+// over the picture that the cell makes on the plane before the wall.
+Vec3 wall_return(const SceneView& scene, IVec3 cell, u32 face, u32 steps, float distance) {
     const Vec3 axis = axis_of_face(face), a = face >> 1 == 0 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, b = cross(axis, a);
-    const Vec3 from = Vec3{0.5f, 0.5f, 0.5f} + axis * 1.49f; // relative to the cell
+    const Vec3 from = Vec3{0.5f, 0.5f, 0.5f} + axis * (distance - 0.01f); // relative to the cell
     Vec3 sum;
-    const float step = 1.2f / float(steps); // at distance 1: the cell's near face is one wide
+    const float wide = 1.2f / (distance - 0.5f), step = wide / float(steps); // at distance 1; the near face is one wide
     for (u32 i = 0; i < steps * steps; ++i) {
-        const float u = (float(i % steps) + 0.5f) * step - 0.6f, v = (float(i / steps) + 0.5f) * step - 0.6f;
+        const float u = (float(i % steps) + 0.5f) * step - 0.5f * wide,
+                    v = (float(i / steps) + 0.5f) * step - 0.5f * wide;
         const Vec3 way = -axis + a * u + b * v;
         const float cosine = 1 / length(way);
         const Ray ray{
@@ -37,61 +39,69 @@ Vec3 wall_return(const SceneView& scene, IVec3 cell, u32 face, u32 steps) {
 
 struct Lamp {
     const char* state;
-    float least, most; // of the return that its level promises; below 1 where small flames are held to kRadianceMost
+    float share = 1;     // of the return that its level promises
+    float least = 0.85f; // of that: what stands before itself is known roughly
 };
 
-TEST(TraceEmission, LampsLightTheWallBesideThem) {
+TEST(TraceEmission, LampsLightTheWallThatFacesThem) {
     const Lamp lamps[] = {
-        {"glowstone", 0.85f, 1.15f},
-        {"sea_lantern", 0.85f, 1.15f},
-        {"shroomlight", 0.85f, 1.15f},
-        {"lava", 0.85f, 1.15f},
-        {"redstone_lamp[lit=true]", 0.85f, 1.15f},
-        {"copper_bulb[lit=true]", 0.85f, 1.15f},
-        {"magma_block", 0.85f, 1.15f},
-        {"nether_portal", 0.85f, 1.15f},
-        {"furnace[lit=true]", 0.85f, 1.15f},
-        {"jack_o_lantern", 0.85f, 1.15f},
-        {"redstone_torch", 0.85f, 1.15f},
-        {"fire", 0.85f, 1.15f},
-        {"end_rod", 0.85f, 1.15f},
-        {"candle[candles=1,lit=true]", 0.85f, 1.15f},
-        {"candle[candles=4,lit=true]", 0.85f, 1.15f},
-        {"vitrail:cyan_crystal", 0.1f, 0.4f}, // seen through: held to kClearMost
-        // Small flames, held to kRadianceMost.
-        {"torch", 0.30f, 0.60f},
-        {"wall_torch[facing=north]", 0.30f, 0.60f},
-        {"soul_torch", 0.28f, 0.60f},
-        {"lantern", 0.70f, 1.10f},
-        {"soul_lantern", 0.70f, 1.10f},
-        {"campfire", 0.45f, 1.10f},
-        {"ender_chest", 0.60f, 1.10f},
+        {"glowstone"},
+        {"sea_lantern"},
+        {"shroomlight"},
+        {"lava", 1 / kAlike},
+        {"redstone_lamp[lit=true]"},
+        {"copper_bulb[lit=true]"},
+        {"magma_block"},
+        {"nether_portal"},
+        {"furnace[lit=true]"},
+        {"jack_o_lantern"},
+        {"redstone_torch"},
+        {"fire"},
+        {"end_rod"},
+        {"candle[candles=1,lit=true]"},
+        {"candle[candles=4,lit=true]"},
+        {"vitrail:cyan_crystal", 1 / kAlike},
+        {"torch"},
+        {"wall_torch[facing=north]"},
+        {"soul_torch"},
+        {"lantern"},
+        {"soul_lantern"},
+        {"campfire", 1, 0.45f},
+        {"ender_chest", 1, 0.55f},
     };
     for (const Lamp& lamp : lamps) {
         ContentChunk chunk;
         chunk.set(8, 8, 8, lamp.state);
         const SceneView& view = chunk.scene();
+        const auto& light = base_content().states->info(StateId(base_content().id(lamp.state))).look->light;
+        const float level = std::max({light[0], light[1], light[2]});
         Vec3 best;
         for (u32 face = 0; face < 6; ++face) {
-            const Vec3 found = wall_return(view, {8, 8, 8}, face, 96);
+            const Vec3 found = wall_return(view, {8, 8, 8}, face, 96, scene::lamp_distance(level));
             if (luminance_of(found) > luminance_of(best)) best = found;
         }
-        const auto& light = base_content().states->info(StateId(base_content().id(lamp.state))).look->light;
-        const float share = luminance_of(best) / lamp_return(std::max({light[0], light[1], light[2]}));
+        const float share = luminance_of(best) / (scene::lamp_return(level) * lamp.share);
         EXPECT_GT(share, lamp.least) << lamp.state;
-        EXPECT_LT(share, lamp.most) << lamp.state;
+        EXPECT_LT(share, 1.15f) << lamp.state;
     }
 }
 
 TEST(TraceEmission, LevelsFallAsTheRastersLaw) {
-    EXPECT_EQ(lamp_return(0), 0);
-    EXPECT_FLOAT_EQ(lamp_return(15), 1);
-    for (u32 level = 2; level < 15; ++level) {
-        const float s = float(level - 1) / 15, most = 14.0f / 15;
-        EXPECT_NEAR(lamp_return(level), s * (0.16f + 1.24f * s) / (most * (0.16f + 1.24f * most)), 1e-6f);
-        EXPECT_LT(lamp_return(level), lamp_return(level + 1));
-    }
-    EXPECT_GT(lamp_return(1), 0);
+    EXPECT_EQ(scene::lamp_return(0), 0);
+    // Level 15: three blocks from its middle, two and a half from its side, 2.5 levels are gone.
+    EXPECT_FLOAT_EQ(scene::lamp_distance(15), 3);
+    EXPECT_FLOAT_EQ(scene::lamp_return(15), 12.5f / 15 * (0.16f + 1.24f * 12.5f / 15));
+    // A dim one: the next block, a level less.
+    EXPECT_FLOAT_EQ(scene::lamp_distance(4), 1.5f);
+    EXPECT_FLOAT_EQ(scene::lamp_return(4), 3.0f / 15 * (0.16f + 1.24f * 3.0f / 15));
+    EXPECT_GT(scene::lamp_return(1), 0);
+    // The stronger the level, the more light in all.
+    const auto strength = [](float level) {
+        const float d = scene::lamp_distance(level);
+        return scene::lamp_return(level) * d * d;
+    };
+    for (float level = 2; level < 15; ++level)
+        EXPECT_LT(strength(level), strength(level + 1)) << level;
 }
 
 } // namespace

@@ -74,6 +74,7 @@ public:
     void set(i32 x, i32 y, i32 z, const std::string& state) {
         blocks_.set(LocalPos(x, y, z), StateId(base_content().id(state)));
     }
+    const BlockStorage& blocks() const { return blocks_; }
     // tints: kTintWords words, or null. Valid until the next call.
     const SceneView& scene(const u32* tints = nullptr) {
         const ContentTables& tables = base_content().tables;

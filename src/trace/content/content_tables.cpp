@@ -205,9 +205,11 @@ void ContentTables::set_emission(StateRecord& r, const StateInfo& info) {
                 textures_.derive_emission(q.texture, hue);
             ++texture_generation_;
         }
-        const bool clear = r.optics == u8(Optics::dielectric) || r.optics == u8(Optics::water);
-        emission = lamp_emission(light, pieces, textures_.view(), tints_.data(), clear ? kClearMost : kRadianceMost);
+        const bool alike = r.kind == CellKind::liquid || r.kind == CellKind::medium;
+        emission = lamp_emission(light, pieces, textures_.view(), tints_.data(), alike);
     }
+    for (u32 i = r.first_quad; i < r.first_quad + r.quads; ++i)
+        set_shining_part(quads_[i], textures_.view(), tints_.data(), textures_.animated(quads_[i].texture));
     const float parts[3] = {emission.x, emission.y, emission.z};
     for (u32 c = 0; c < 3; ++c)
         r.emission[c] = u16(std::clamp(parts[c] / StateRecord::kEmissionUnit + 0.5f, 0.0f, 65535.0f));

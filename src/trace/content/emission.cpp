@@ -1,6 +1,7 @@
 #include "trace/content/emission.h"
 
 #include "math/color.h"
+#include "scene/lamp_light.h"
 #include "trace/kernel/texture.h"
 #include "world/block_def.h"
 
@@ -38,15 +39,6 @@ void each_place(const TraceQuad& q, const TextureView& textures, const u32* fixe
     }
 }
 
-} // namespace
-
-float lamp_return(u32 level) {
-    const auto law = [](float s) { return s * (0.16f + 1.24f * s); };
-    return level == 0 ? 0 : law(std::max(float(level) - 1, 0.5f) / 15) / law(14.0f / 15);
-}
-
-namespace {
-
 // Does the quad stand between the two places, both off its plane?
 bool blocks(const TraceQuad& q, const TextureView& textures, Vec3 from, Vec3 to) {
     const Vec3 way = to - from;
@@ -64,14 +56,14 @@ bool blocks(const TraceQuad& q, const TextureView& textures, Vec3 from, Vec3 to)
     return !(q.look & TraceQuad::kCutout && hole_at(textures, q.texture, quad_uv(q, a, b)));
 }
 
-Vec3 wall_middle(u32 face) {
-    return Vec3{0.5f, 0.5f, 0.5f} + axis_of(face) * 1.5f;
+Vec3 wall_middle(u32 face, float distance) {
+    return Vec3{0.5f, 0.5f, 0.5f} + axis_of(face) * distance;
 }
 
 } // namespace
 
 std::array<Vec3, 6> wall_returns(std::span<const TraceQuad> pieces, Vec3 emission, const TextureView& textures,
-                                 const u32* fixed_tints) {
+                                 const u32* fixed_tints, float distance) {
     std::array<Vec3, 6> sums{};
     for (const TraceQuad& q : pieces) {
         if (!textures.material || q.emission_scale == 0) continue;
@@ -83,13 +75,13 @@ std::array<Vec3, 6> wall_returns(std::span<const TraceQuad> pieces, Vec3 emissio
         each_place(q, textures, fixed_tints, [&](Vec3 place, float a, float b, Vec3 radiance, float area) {
             const u32 part = u32(a * kParts) + u32(b * kParts) * kParts;
             for (u32 f = 0; f < 6; ++f) {
-                const Vec3 axis = axis_of(f), way = wall_middle(f) - place;
+                const Vec3 axis = axis_of(f), way = wall_middle(f, distance) - place;
                 const float d2 = dot(way, way), facing = dot(way, q.normal);
                 const float leaves = q.look & TraceQuad::kTwoSided ? std::fabs(facing) : facing;
                 if (leaves <= 0) continue;
                 if (seen[f][part] < 0)
                     seen[f][part] = !std::any_of(pieces.begin(), pieces.end(), [&](const TraceQuad& other) {
-                        return &other != &q && blocks(other, textures, place, wall_middle(f));
+                        return &other != &q && blocks(other, textures, place, wall_middle(f, distance));
                     });
                 if (seen[f][part]) sums[f] += radiance * emission * (leaves * dot(way, axis) * area / (kPi * d2 * d2));
             }
@@ -99,29 +91,51 @@ std::array<Vec3, 6> wall_returns(std::span<const TraceQuad> pieces, Vec3 emissio
 }
 
 Vec3 lamp_emission(const std::array<u8, 3>& levels, std::span<const TraceQuad> pieces, const TextureView& textures,
-                   const u32* fixed_tints, float radiance_most) {
+                   const u32* fixed_tints, bool alike) {
     const u32 strongest = std::max({levels[0], levels[1], levels[2]});
-    const std::array<Vec3, 6> plain = wall_returns(pieces, {1, 1, 1}, textures, fixed_tints);
+    const std::array<Vec3, 6> plain =
+        wall_returns(pieces, {1, 1, 1}, textures, fixed_tints, scene::lamp_distance(float(strongest)));
     const Vec3 seen =
         *std::max_element(plain.begin(), plain.end(), [](Vec3 a, Vec3 b) { return luminance_of(a) < luminance_of(b); });
     if (luminance_of(seen) <= 0) return {};
 
-    // The light's hue: between that of its levels (warmed as shade.glsl warms them) and that of what shines.
-    const float by_level = 1 / float(strongest);
-    const Vec3 told = Vec3{1.10f * float(levels[0]), 0.97f * float(levels[1]), 0.84f * float(levels[2])} * by_level;
-    const Vec3 painted = seen * (1 / std::max({seen.x, seen.y, seen.z}));
-    const Vec3 hue = (told + painted) * 0.5f;
+    // The light's hue: between that of its levels at the wall and that of what shines.
+    const float lost = scene::lamp_distance(float(strongest)) - 0.5f;
+    const auto there = [&](u8 level) { return std::max(float(level) - lost, 0.0f) / scene::kLevelMost; };
+    const auto pure = [](Vec3 v) { return v * (1 / std::max({v.x, v.y, v.z, 1e-6f})); };
+    const Vec3 told =
+        strongest > 1 ? pure(scene::lamp_light({there(levels[0]), there(levels[1]), there(levels[2])})) : Vec3{1, 1, 1};
+    const Vec3 painted = pure(seen), hue = (told + painted) * 0.5f;
     // Where a picture lacks a color, no strength brings it back.
-    const auto gain = [](float wanted, float there) { return wanted / std::max(there, 0.2f); };
+    const auto gain = [](float wanted, float found) { return wanted / std::max(found, 0.05f); };
     Vec3 out{gain(hue.x, painted.x), gain(hue.y, painted.y), gain(hue.z, painted.z)};
-    out = out * (lamp_return(strongest) / luminance_of(seen * out));
+    out = out * (scene::lamp_return(float(strongest)) / (luminance_of(seen * out) * (alike ? kAlike : 1.0f)));
 
     float brightest = 0;
     for (const TraceQuad& q : pieces)
         each_place(q, textures, fixed_tints, [&](Vec3, float, float, Vec3 radiance, float) {
             brightest = std::max(brightest, luminance_of(radiance * out));
         });
-    return brightest > radiance_most ? out * (radiance_most / brightest) : out;
+    const float held = std::min(kRadianceMost / std::max(brightest, 1e-6f),
+                                kEmissionMost / std::max({out.x, out.y, out.z})); // hues stay
+    return held < 1 ? out * held : out;
+}
+
+void set_shining_part(TraceQuad& piece, const TextureView& textures, const u32* fixed_tints, bool moves) {
+    float least_a = 1, most_a = 0, least_b = 1, most_b = 0, sum = 0;
+    each_place(piece, textures, fixed_tints, [&](Vec3, float a, float b, Vec3 light, float) {
+        least_a = std::min(least_a, a), most_a = std::max(most_a, a);
+        least_b = std::min(least_b, b), most_b = std::max(most_b, b);
+        sum += luminance_of(light);
+    });
+    piece.shine = piece.emission_scale > 0 ? sum / (piece.emission_scale * kGrid * kGrid) : 0;
+    piece.shining_part = TraceQuad{}.shining_part;
+    if (moves || !(sum > 0)) return;
+    // A texel reaches less than a place beyond those of its middles that were looked at.
+    constexpr float kReach = 1.5f / kGrid;
+    const auto down = [](float v) { return u32(std::floor(clamp(v - kReach, 0, 1) * 255)); };
+    const auto up = [](float v) { return u32(std::ceil(clamp(v + kReach, 0, 1) * 255)); };
+    piece.shining_part = down(least_a) | up(most_a) << 8 | down(least_b) << 16 | up(most_b) << 24;
 }
 
 TraceQuad quad_of_face(u64 look) {

@@ -1,12 +1,12 @@
 // How strongly lamps shine. A texel's radiance is its albedo x its emission channel x the state's emission; this finds
 // the last.
 //
-// Balance, in the unit of scene/sky.h: the brightest side of a lamp of level 15 makes a white wall one block away (its
-// middle, 1.5 blocks from the middle of the lamp's cell) return 1, however large the part that shines; a lamp of a
-// lower level what the raster renderer's law of lamps says for light one level lower (shade.glsl: s (0.16 + 1.24 s)),
-// in the same proportion. Small flames shine the more, up to kRadianceMost in their brightest texel: beyond that they
-// give less light than their level, rather than dazzle. What has an emission picture but gives no light by its level
-// glows faintly (kGlow x albedo x channel).
+// Balance: the brightest side of a lamp makes a white wall that faces it return what scene/lamp_light.h says for its
+// level, however large the part that shines: scene::lamp_return(level) at scene::lamp_distance(level) from the middle
+// of its cell. For level 15 that is 0.99 three blocks away, near 4 one block away. A torch's flame, two texels wide,
+// comes so to some 700, glowstone to 20. What fills pools and prisms (liquids, clear bodies) shares that among the
+// kAlike blocks that lie side by side. What has an emission picture but gives no light by its level glows faintly
+// (kGlow x albedo x channel).
 #pragma once
 
 #include "trace/kernel/scene_view.h"
@@ -16,21 +16,25 @@
 
 namespace vitrail::trace {
 
-inline constexpr float kRadianceMost = 100;
-inline constexpr float kClearMost = 4; // of clear bodies, which should still be seen through
+// In the brightest texel, and what a state's record can hold. What would be brighter gives less light than its level:
+// of the base content the conduit alone, whose pictures are nearly dark.
+inline constexpr float kRadianceMost = 2000, kEmissionMost = 65535 * StateRecord::kEmissionUnit;
+inline constexpr float kAlike = 4;
 inline constexpr float kGlow = 0.25f;
 
-// What the wall is to return, luminance; 1 for level 15.
-float lamp_return(u32 level);
-
-// What pieces with this emission return from the walls one block from the cell, by Face; the wall is white and faces
-// the lamp.
+// What pieces with this emission return from the walls `distance` blocks from the middle of the cell, by Face; the wall
+// is white and faces the lamp.
 std::array<Vec3, 6> wall_returns(std::span<const TraceQuad> pieces, Vec3 emission, const TextureView& textures,
-                                 const u32* fixed_tints);
+                                 const u32* fixed_tints, float distance);
 
-// The emission of a state. levels: r, g, b, 0..15, not all 0. 0 where no texel shines.
+// The emission of a state. levels: r, g, b, 0..15, not all 0. alike: it lies beside others of its kind. 0 where no
+// texel shines.
 Vec3 lamp_emission(const std::array<u8, 3>& levels, std::span<const TraceQuad> pieces, const TextureView& textures,
-                   const u32* fixed_tints, float radiance_most = kRadianceMost);
+                   const u32* fixed_tints, bool alike = false);
+
+// Sets where on a piece light leaves it and how much (TraceQuad::shine, shining_part). moves: its picture changes, any
+// part may shine later.
+void set_shining_part(TraceQuad& piece, const TextureView& textures, const u32* fixed_tints, bool moves);
 
 // The face of a cube as a quad.
 TraceQuad quad_of_face(u64 look);

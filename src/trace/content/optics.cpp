@@ -66,17 +66,22 @@ MediumRecord medium_of(const BlockLook& look, PictureMean mean) {
     MediumRecord m;
     m.kind = 2;
     m.ior = ior_of(look, Optics::dielectric);
-    // Hue of the picture, deeper the less clear it is painted: a crystal of one block takes what a stained window
-    // would. Ice is nearly white in such depths; what is cloudy sends back its color by scattering, too.
-    const bool crystal = look.material == "crystal" || look.material == "glass", ice = look.material == "ice";
-    const float most = std::max({mean.color.x, mean.color.y, mean.color.z, 1e-3f});
-    const float depth = (crystal ? 1.6f : ice ? 0.45f : 0.8f) * mean.alpha;
-    const auto taken = [&](float c) { return depth * (0.05f - std::log(std::clamp(c / most, 0.02f, 1.0f))); };
-    m.absorption = {taken(mean.color.x), taken(mean.color.y), taken(mean.color.z)};
-    if (ice)
-        m.scattering = Vec3{0.30f, 0.33f, 0.36f} * (2 * mean.alpha); // bubbles and cracks
-    else if (!crystal)
-        m.scattering = mean.color * (0.5f * mean.alpha / most);
+    if (look.material == "ice") {
+        // Clean ice takes little but red (Warren and Brandt, "Optical constants of ice from the ultraviolet to the
+        // microwave", 2008, at 612, 549 and 464 nm); bubbles and cracks make it milky, the more the less clear it is
+        // painted.
+        m.absorption = {0.14f, 0.05f, 0.004f};
+        m.scattering = Vec3{1, 1, 1} * (0.3f * mean.alpha);
+    } else {
+        // Hue of the picture, deeper the less clear it is painted: a crystal of one block takes what a stained window
+        // would. What is cloudy sends back its color by scattering, too.
+        const bool crystal = look.material == "crystal" || look.material == "glass";
+        const float most = std::max({mean.color.x, mean.color.y, mean.color.z, 1e-3f});
+        const float depth = (crystal ? 1.6f : 0.8f) * mean.alpha;
+        const auto taken = [&](float c) { return depth * (0.05f - std::log(std::clamp(c / most, 0.02f, 1.0f))); };
+        m.absorption = {taken(mean.color.x), taken(mean.color.y), taken(mean.color.z)};
+        if (!crystal) m.scattering = mean.color * (0.5f * mean.alpha / most);
+    }
     if (look.absorption != std::array<float, 3>{})
         m.absorption = {look.absorption[0], look.absorption[1], look.absorption[2]};
     return m;

@@ -29,6 +29,11 @@ bool TextureStore::painted_emission(u32 layer) const {
     return layer < painted_.size() && painted_[layer];
 }
 
+bool TextureStore::animated(u32 layer) const {
+    return std::any_of(animations_.begin(), animations_.end(),
+                       [&](const scene::PictureAnimation& a) { return a.layer == layer; });
+}
+
 void TextureStore::derive_emission(u32 layer, Vec3 hue) {
     if (layer >= derived_.size() || painted_[layer] || derived_[layer]) return;
     derived_[layer] = 1;

@@ -15,6 +15,7 @@ public:
     void load(const scene::BlockPictures& pictures);
 
     bool painted_emission(u32 layer) const; // of the picture's own
+    bool animated(u32 layer) const;
     // Where there is none, texels that are bright in a lamp's hue are taken to shine. The first hue stays.
     void derive_emission(u32 layer, Vec3 hue);
     PictureMean mean(u32 layer) const; // all clear: white, alpha 0

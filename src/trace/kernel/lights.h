@@ -2,9 +2,9 @@
 // Kernel-safe.
 //
 // An emitter is chosen by the tree (light_tree.h), then one of its faces and quads by what they may give, then a point:
-// near faces evenly in solid angle, all else evenly in area. What shines at the point follows from its texel
-// (surface_at of the returned hit), and nothing does where a quad's texel is a hole or another part of the lamp stands
-// before it.
+// near faces evenly in solid angle, all else evenly in area, of quads where they shine. What shines at the point
+// follows from its texel (surface_at of the returned hit), and nothing does where a quad's texel is a hole or another
+// part of the lamp stands before it.
 #pragma once
 
 #include "trace/kernel/light_tree.h"
@@ -51,14 +51,28 @@ VX_HD float face_weight(u32 face, Vec3 q, Vec3 normal, float top) {
     }
     return piece_weight(1, h, way);
 }
-VX_HD float quad_area(const TraceQuad& q) {
-    return length(cross(q.edge_a, q.edge_b)) * (q.look & TraceQuad::kTriangle ? 0.5f : 1.0f);
+// The part of a quad that shines, along its edges; of a triangle all.
+struct ShiningPart {
+    float a, b, wide_a, wide_b;
+};
+VX_HD ShiningPart shining_part(const TraceQuad& q) {
+    const auto end = [&](u32 i) { return float(q.shining_part >> (8 * i) & 255) * (1.0f / 255); };
+    return {end(0), end(2), end(1) - end(0), end(3) - end(2)};
 }
+VX_HD float shining_area(const TraceQuad& q) {
+    const float whole = length(cross(q.edge_a, q.edge_b));
+    if (q.look & TraceQuad::kTriangle) return 0.5f * whole;
+    const ShiningPart p = shining_part(q);
+    return whole * (p.wide_a * p.wide_b);
+}
+// Light goes by shine over the whole quad.
 VX_HD float quad_weight(const TraceQuad& quad, Vec3 q) {
-    const Vec3 way = quad.corner + (quad.edge_a + quad.edge_b) * 0.5f - q;
+    const ShiningPart p = shining_part(quad);
+    const Vec3 way = quad.corner + quad.edge_a * (p.a + 0.5f * p.wide_a) + quad.edge_b * (p.b + 0.5f * p.wide_b) - q;
     float h = -dot(quad.normal, way);
     if (quad.look & TraceQuad::kTwoSided) h = std::fabs(h);
-    return h > 0 ? piece_weight(quad_area(quad) * quad.emission_scale, h, way) : 0;
+    const float area = length(cross(quad.edge_a, quad.edge_b)) * (quad.look & TraceQuad::kTriangle ? 0.5f : 1.0f);
+    return h > 0 ? piece_weight(area * quad.emission_scale * quad.shine, h, way) : 0;
 }
 
 // An emitter seen from a place.
@@ -127,10 +141,15 @@ VX_HD_CALL bool sample_chosen(const SceneView& s, Place at, Vec3 normal, u32 emi
     if (piece >= 6) {
         const u32 index = v.state->first_quad + piece - 6;
         const TraceQuad& quad = s.quads[index];
-        if (quad.look & TraceQuad::kTriangle && u.x + u.y > 1) u = {1 - u.x, 1 - u.y};
+        if (!(quad.look & TraceQuad::kTriangle)) {
+            const ShiningPart p = shining_part(quad);
+            u = {p.a + u.x * p.wide_a, p.b + u.y * p.wide_b};
+        } else if (u.x + u.y > 1) {
+            u = {1 - u.x, 1 - u.y};
+        }
         target = quad.corner + quad.edge_a * u.x + quad.edge_b * u.y;
         facing = quad.normal;
-        area = quad_area(quad);
+        area = shining_area(quad);
         const Vec2 uv = quad_uv(quad, u.x, u.y);
         if (quad.look & TraceQuad::kCutout && hole_at(s.textures, quad.texture, uv)) return false;
         out.hit.kind = HitKind::quad;
@@ -202,7 +221,7 @@ VX_HD_CALL float emitter_pdf(const SceneView& s, Place at, Vec3 normal, Vec3 dir
         } else {
             piece = 6 + hit.quad - v.state->first_quad;
             if (piece < 6 || piece >= piece_end(v)) return 0;
-            area = quad_area(s.quads[hit.quad]);
+            area = shining_area(s.quads[hit.quad]);
         }
     }
     const float weight = weight_of_piece(s, v, piece);

@@ -17,6 +17,7 @@ inline constexpr u32 kLiquidSurface = 0xffffffff;
 struct LiquidTop {
     scene::LiquidSlope slope; // 1/256 block
     bool full = false;        // the fluid lies above too: no surface
+    bool covered = false;     // a block lies on it: no wind raises waves
     VX_HD bool level() const { return slope.h00 == slope.h10 && slope.h00 == slope.h11 && slope.h00 == slope.h01; }
 };
 
@@ -66,6 +67,8 @@ VX_HD LiquidTop liquid_top(const SceneView& s, IVec3 cell, u32 medium) {
         top.slope = {scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull};
         return top;
     }
+    const CellKind over = s.states[above[4]].kind;
+    top.covered = over != CellKind::empty && over != CellKind::model && over != CellKind::liquid;
     states_around(s.grid, cell, here);
     i32 of[9]; // what scene/liquid_surface.h asks of each
     for (u32 i = 0; i < 9; ++i) {

@@ -19,9 +19,13 @@ VX_HD scene::LiquidOptics medium_optics(const SceneView& s, Place at, u32 medium
     return o;
 }
 
-// Share of light left after `length` blocks.
+// Share of light left after `length` blocks for what arrives, from wherever: what floats in media scatters forwards, so
+// what a ray loses by that others bring, and absorption alone dims. The eye's own way also loses what is scattered, and
+// gets as much (scatter.h).
 VX_HD Vec3 medium_left(const SceneView& s, Place at, float length, u32 medium) {
-    const Vec3 lost = medium_optics(s, at, medium).absorption * length;
+    const MediumRecord& m = s.media[medium];
+    const Vec3 lost =
+        (m.tinted ? scene::water_optics(biome_tint(s.grid, kTintWater, at)).absorption : m.absorption) * length;
     return {exp_of(-lost.x), exp_of(-lost.y), exp_of(-lost.z)};
 }
 

@@ -12,10 +12,12 @@
 //     is not: light that water or polished metal throws onto walls from so small a source would be nothing but specks.
 //   - A rough border (frosted glass) scatters for light from all sides when it is the first scattering; later ones
 //     leave what comes through them to the straight ray, and take light from their own side alone.
-//   - Mist and what floats in water scatter light once, on the way that the eye sees sharply: the first stretch, and
-//     those behind mirrors and clear borders. Other stretches lose light to a medium's absorption, none to mist.
+//   - Mist, and what floats in water and other media, scatter light once, on the way that the eye sees sharply: the
+//     first stretch, and those behind mirrors and clear borders. Other stretches lose light to a medium's absorption,
+//     none to what scatters it.
 //   - Land that the eye sees sharply fades into the sky at the end of the view.
-//   - The eye sees the discs of sun and moon as they are drawn, in mirrors and water as bright as they are.
+//   - The eye sees the discs of sun and moon as they are drawn, in mirrors and water as bright as they are; lamps as
+//     they are painted (seen_emission), everywhere that it sees sharply.
 #pragma once
 
 #include "trace/kernel/camera.h"

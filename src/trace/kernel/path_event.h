@@ -110,7 +110,7 @@ VX_HD void meet_emission(const SceneView& scene, const PathSettings& settings, c
     else if (path.since == Since::borders && any_lamp && (hit.kind == HitKind::cube || hit.kind == HitKind::quad))
         weight = find_emitter(scene.lights, hit.cell) != kNoEmitter ? 0.0f : 1.0f;
     if (path.sharp)
-        sum.base += path.carried * p.emission;
+        sum.base += path.carried * seen_emission(scene.states[hit.state], p.emission);
     else if (weight > 0)
         add_light(sum.light, path.carried * p.emission * weight, true, settings);
 }

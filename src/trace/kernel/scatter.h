@@ -56,7 +56,7 @@ VX_COLD Stretch cross_stretch(const SceneView& s, const SkyView& sky, const Ray&
         const LiquidPoint p = sample_liquid_point(optics.absorption, optics.scattering, length, u);
         out.speck = {p.t, p.weight, p.pdf > 0};
     }
-    out.left = medium_left(s, ray.from, length, medium);
+    out.left = liquid_passes(optics.absorption, length);
     return out;
 }
 

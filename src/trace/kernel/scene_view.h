@@ -54,7 +54,10 @@ struct TraceQuad {
     Vec3 normal;                                          // unit, geometric, front
     float emission_scale = 1;                             // on StateRecord::emission
     float u0 = 0, v0 = 0, ua = 0, va = 0, ub = 0, vb = 0; // texture coordinates of corner, and along the edges
-    u32 pad[2] = {0, 0};
+    // For sampling: mean of what its texels send of the state's emission, and the part of it that shines: a least, a
+    // most, b least, b most, 0..255 each.
+    float shine = 1;
+    u32 shining_part = 0xff00ff00;
     static constexpr u32 kTriangle = 1u << 24, kTwoSided = 1u << 25, kCutout = 1u << 26, kUnshaded = 1u << 27;
 };
 static_assert(sizeof(TraceQuad) == 96);

@@ -5,6 +5,7 @@
 // footprint: blocks that the ray's pixel is wide at the hit, across the ray; 0 takes the finest texels.
 #pragma once
 
+#include "math/exp.h"
 #include "scene/water.h"
 #include "trace/kernel/liquid.h"
 #include "trace/kernel/surface_point.h"
@@ -171,6 +172,22 @@ VX_HD Vec3 emission_of(const StateRecord& r, float scale) {
            (scale * StateRecord::kEmissionUnit);
 }
 
+// A lamp's radiance as the eye takes it in. The screen has no room for what dazzles, and lamps would be white holes in
+// the picture; so, like the discs of sun and moon, they are seen as painted: in the colors of their picture, which is
+// what `emission` is without the state's hue, and as bright as the logarithm tells (Fechner 1860): what is dim is seen as
+// it is, 20 as 3, 700 as 6.6.
+VX_HD Vec3 seen_emission(const StateRecord& r, Vec3 emission) {
+    const auto painted = [](float e, u16 part) { return part > 0 ? e / float(part) : 0.0f; };
+    const Vec3 color{painted(emission.x, r.emission[0]), painted(emission.y, r.emission[1]),
+                     painted(emission.z, r.emission[2])};
+    const auto greatest = [](Vec3 v) {
+        const float a = v.x > v.y ? v.x : v.y;
+        return a > v.z ? a : v.z;
+    };
+    const float most = greatest(color);
+    return most > 0 ? color * (log_of(1 + greatest(emission)) / most) : Vec3{};
+}
+
 // The surface of a fluid inside its cell.
 VX_HD void shade_liquid_top(const SceneView& s, const Ray& ray, const Hit& hit, float footprint, SurfacePoint& p) {
     const StateRecord& r = s.states[hit.state];
@@ -194,7 +211,7 @@ VX_HD void shade_liquid_top(const SceneView& s, const Ray& ray, const Hit& hit, 
     p.albedo = {1, 1, 1};
     p.roughness = 0;
     p.normal = p.face;
-    if (top.level()) {
+    if (top.level() && !top.covered) {
         const scene::WaveSurface w =
             scene::wave_at({hit.cell.x, hit.cell.y, hit.cell.z}, {hit.u, hit.v}, s.seconds, s.wave_height);
         const Vec3 wavy = normalized({-w.slope.x, 1, -w.slope.y});

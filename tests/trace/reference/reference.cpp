@@ -31,6 +31,19 @@ double mirrored_share(double cosine, double index) {
     return (s * s + p * p) / 2;
 }
 
+// A lamp as the eye has it: the strongest channel by its logarithm, the colors in the proportion of the picture's.
+Vec3 as_seen(const StateRecord& r, Vec3 emission) {
+    const double e[3] = {emission.x, emission.y, emission.z};
+    double color[3], most = 0, strongest = 0;
+    for (int c = 0; c < 3; ++c) {
+        color[c] = r.emission[c] ? e[c] / (r.emission[c] * double(StateRecord::kEmissionUnit)) : 0;
+        most = std::max(most, color[c]), strongest = std::max(strongest, e[c]);
+    }
+    if (most <= 0) return {};
+    const double bright = std::log1p(strongest) / most;
+    return {float(color[0] * bright), float(color[1] * bright), float(color[2] * bright)};
+}
+
 Vec3 times(Vec3 a, double s) {
     return a * float(s);
 }
@@ -68,7 +81,8 @@ double Reference::density(Place at) const {
 
 Vec3 Reference::left(const Ray& ray, float length, u32 medium, bool mist) const {
     if (medium) {
-        const Vec3 a = scene_.media[medium].absorption + scene_.media[medium].scattering;
+        Vec3 a = scene_.media[medium].absorption;
+        if (mist) a = a + scene_.media[medium].scattering; // else what floats in it sends on what it takes
         const double l = length;
         return {float(std::exp(-double(a.x) * l)), float(std::exp(-double(a.y) * l)),
                 float(std::exp(-double(a.z) * l))};
@@ -164,7 +178,7 @@ Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, 
         sum += times(carried * sky_dome(scene_.sky, ray.dir), faded);
         carried = times(carried, 1 - faded);
     }
-    if (way != Way::borders) sum += carried * p.emission;
+    if (way != Way::borders) sum += carried * (sharp ? as_seen(scene_.view.states[hit.state], p.emission) : p.emission);
 
     const Vec3 eye = -ray.dir;
     // Exact mirrors and passages, one at random.

@@ -12,6 +12,7 @@
 #include "water/caustics.glsl"
 #include "common/fog.glsl"
 #include "shadow/shadow.glsl"
+#include "lighting/lamp_light.glsl"
 #include "lighting/shade.glsl"
 
 layout(binding = 0) uniform sampler2D t_albedo;

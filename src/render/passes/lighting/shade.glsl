@@ -1,5 +1,6 @@
 // Light on a surface, shared by the lighting pass and translucent surfaces.
-// Needs frame.glsl, common/surface.glsl, common/ambient.glsl, shadow/shadow.glsl, water/medium.glsl.
+// Needs frame.glsl, common/surface.glsl, common/ambient.glsl, shadow/shadow.glsl, water/medium.glsl,
+// lighting/lamp_light.glsl.
 // CAUSTICS: with the eye under water its waves gather the sun on what lies below (needs water/caustics.glsl).
 // place: camera-relative; towards: unit direction from the eye.
 vec3 shade(Surface s, vec3 place, vec3 towards, uint view) {
@@ -29,12 +30,7 @@ vec3 shade(Surface s, vec3 place, vec3 towards, uint view) {
     float open = s.ao, sunlit = 0.35 + 0.65 * s.ao;
 #endif
     vec3 sum = sky_irradiance(s.normal) * down * (sky * edge * open) + sun * (facing * sunlit);
-    // Lamps: between a linear and a square law. Each channel loses one level a block, so far from a lamp only its strongest
-    // color would be left: the weaker a light, the nearer to gray it is taken.
-    float strongest = max(max(s.light.r, s.light.g), s.light.b);
-    float gray = mix(1.15, 0.15, strongest) * strongest;
-    vec3 hue = (s.light.rgb + gray) / max(strongest + gray, 1e-3);
-    vec3 block = hue * vec3(1.10, 0.97, 0.84) * (strongest * (0.16 + 1.24 * strongest));
+    vec3 block = lamp_light(s.light.rgb);
     sum += (block + vec3(0.0200, 0.0210, 0.0240)) * open; // the last: what eyes used to the dark still see
     if (below > 0.0) sum += views[view].murk.rgb * (1.2 * open); // the glimmer of the water around
     vec3 result = s.albedo * sum;

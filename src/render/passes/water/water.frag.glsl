@@ -9,6 +9,7 @@
 #include "water/caustics.glsl"
 #include "common/fog.glsl"
 #include "shadow/shadow.glsl"
+#include "lighting/lamp_light.glsl"
 #include "lighting/shade.glsl"
 #include "water/sides.glsl"
 #include "water/waves.glsl"
