@@ -3,6 +3,7 @@
 // Kernel-safe: values only.
 #pragma once
 
+#include "math/exp.h"
 #include "math/vec.h"
 #include "voxel/coords.h"
 
@@ -60,6 +61,55 @@ VX_HD WaveSurface wave_at(BlockPos place, Vec2 inside, float seconds, float wave
         (i < kSwells ? out.swell : out.ripple) += height * std::sin(turns * kTurn);
         const float steep = height * kTurn * kPer * std::cos(turns * kTurn);
         out.slope.x += steep * float(w.x), out.slope.y += steep * float(w.z);
+    }
+    return out;
+}
+
+// Of two numbers, one along x and one along z.
+struct Covariance {
+    float xx = 0, xz = 0, zz = 0;
+};
+
+// A Gaussian patch of the level surface through which waves are looked at: covariance of its places along x and z,
+// squared blocks. All 0: a point.
+using WaveFilter = Covariance;
+// The patch that a cone `width` blocks wide sees there, which comes along `dir` (unit): half as wide as the cone each
+// way from the middle, and stretched along the ray, the more the flatter it comes.
+VX_HD WaveFilter wave_filter(Vec3 dir, float width) {
+    const float s2 = 0.25f * width * width, y2 = dir.y * dir.y, stretched = s2 / (y2 > 1e-6f ? y2 : 1e-6f);
+    return {s2 + stretched * dir.x * dir.x, stretched * dir.x * dir.z, s2 + stretched * dir.z * dir.z};
+}
+
+// Waves of a patch: the mean of their slopes, and the covariance of slopes around it. A sine that a Gaussian filters
+// keeps e^(-k C k / 2) of its height (k: turns of its phase a block), and its slope's variance over all places is half
+// its squared steepness; what the mean does not show of that is spread: so moments of slopes stay as they are (Olano
+// and Baker, "LEAN Mapping", 2010; Bruneton, Neyret and Holzschuch, "Real-time Realistic Ocean Lighting using Seamless
+// Transitions from Geometry to BRDF", 2010).
+struct WavesSeen {
+    Vec2 slope;
+    Covariance spread;
+};
+// As wave_at; the slope is its within 2e-5 where the patch is a point.
+VX_HD WavesSeen waves_seen(BlockPos place, Vec2 inside, float seconds, float wave_height, WaveFilter filter) {
+    constexpr float kTurn = 6.2831853f, kPer = 1.0f / float(kWavePeriod);
+    constexpr WaveTable kTable = wave_table();
+    const float x = float(place.x & (kWavePeriod - 1)) + inside.x, z = float(place.z & (kWavePeriod - 1)) + inside.y;
+    const float t = std::fmod(seconds, float(kWavePeriod));
+    WavesSeen out;
+    for (u32 i = 0; i < kSwells + kRipples; ++i) {
+        const Wave& w = kTable.waves[i];
+        const float kx = kTurn * kPer * float(w.x), kz = kTurn * kPer * float(w.z);
+        const float height = i < kSwells ? w.height * wave_height : w.height * (wave_height / 0.06f);
+        const float seen = exp_of(-0.5f * (kx * kx * filter.xx + 2 * kx * kz * filter.xz + kz * kz * filter.zz));
+        float turns = (float(w.x) * x + float(w.z) * z - float(w.t) * t) * kPer;
+        turns -= std::floor(turns);
+        // The cosine by the sine's series on a quarter turn.
+        const float a = kTurn * (0.25f - std::fabs(turns - 0.5f)), a2 = a * a;
+        const float cosine =
+            -a * (1 - a2 * (1.0f / 6) * (1 - a2 * (1.0f / 20) * (1 - a2 * (1.0f / 42) * (1 - a2 * (1.0f / 72)))));
+        out.slope.x += height * seen * cosine * kx, out.slope.y += height * seen * cosine * kz;
+        const float lost = 0.5f * height * height * (1 - seen * seen);
+        out.spread.xx += lost * kx * kx, out.spread.xz += lost * kx * kz, out.spread.zz += lost * kz * kz;
     }
     return out;
 }

@@ -272,6 +272,7 @@ std::unique_ptr<TestScene> make_scene(SceneName name, float sun_radius) {
         s.set(5, 1, -11, TestScene::lamp);
         s.set(2, 0, -11, TestScene::mirror);
         s.set(-2, -3, 1, TestScene::half_lamp);
+        s.view.wave_height = 0.06f, s.view.seconds = 2.5f;
         s.set_sky(8200, sun_radius);
         s.look({0.5f, 4.0f, 8.5f}, {0, -0.42f, -1});
         break;

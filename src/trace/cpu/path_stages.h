@@ -124,6 +124,7 @@ template <int Tag>
 void start_paths(const PathFrame& f, const PathStart* starts, u32 count, PixelSample* sums, PathArrays& a) {
     const Camera camera = *f.camera; // in this function's hands: nothing written changes it
     const PathSettings settings = *f.settings;
+    const float pixel = pixel_width(camera);
     BlockDraws draws;
     alignas(64) u32 x[kBlock] = {}, y[kBlock] = {};
     alignas(64) float dir[3][kBlock];
@@ -149,6 +150,7 @@ void start_paths(const PathFrame& f, const PathStart* starts, u32 count, PixelSa
             p.sampler = {draws.sample[i], draws.place[i], draws.frame[i], draws.pixel[i], 1};
             p.ray = {camera.eye, {dir[0][i], dir[1][i], dir[2][i]}};
             p.medium = camera.medium;
+            p.spread = pixel;
             sums[path] = {};
             a.live[path] = path;
             a.rays[path] = p.ray;

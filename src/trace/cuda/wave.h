@@ -118,7 +118,7 @@ VX_HD void store_path(const Wave& w, u32 path, const PathState& p, u32 x, u32 y)
     to[n] = words_of(p.ray.from.at, bits_of(p.ray.dir.x));
     to[2 * n] = {bits_of(p.ray.dir.y), bits_of(p.ray.dir.z), x | y << 16, p.sampler.drawn};
     to[3 * n] = words_of(p.carried, bits_of(p.pdf));
-    to[4 * n] = words_of(p.scatter_side, bits_of(p.way));
+    to[4 * n] = words_of(p.sharp ? Vec3{p.wide, p.spread, 0} : p.scatter_side, bits_of(p.way));
 }
 
 // Of a path its ray and medium alone.
@@ -142,7 +142,11 @@ VX_HD PathState load_path(const WaveJob& j, u32 path, u32& x, u32& y) {
     p.sampler = sampler_of_path(j.job.settings, x, y, path / j.pixels);
     p.sampler.drawn = c.w;
     p.carried = vec_of(d), p.pdf = float_of(d.w);
-    p.scatter_side = vec_of(e), p.way = float_of(e.w);
+    if (p.sharp)
+        p.wide = float_of(e.x), p.spread = float_of(e.y); // lights from all sides
+    else
+        p.scatter_side = vec_of(e);
+    p.way = float_of(e.w);
     return p;
 }
 
@@ -205,11 +209,11 @@ VX_HD void add_to(Word4& sum, Vec3 v) {
     sum = words_of(vec_of(sum) + v, sum.w);
 }
 
-// What one event found. guides: it told them.
-VX_HD void add_event(const Wave& w, u32 path, const PixelSample& found, bool guides) {
+// What one event found. It told guides if it told how far off they are.
+VX_HD void add_event(const Wave& w, u32 path, const PixelSample& found, bool = false) {
     Word4* to = w.sum + path;
     const u32 n = w.paths;
-    if (guides) {
+    if (found.distance > 0) {
         to[0] = words_of(vec_of(to[0]) + found.base, found.surface);
         to[4 * n] = words_of(found.albedo, bits_of(found.distance));
         to[5 * n] = words_of(found.normal, bits_of(found.roughness));

@@ -17,6 +17,7 @@
 #include "trace/kernel/fresnel.h"
 #include "trace/kernel/microfacet.h"
 #include "trace/kernel/surface_point.h"
+#include "trace/kernel/wave_lobe.h"
 
 namespace vitrail::trace {
 
@@ -45,7 +46,7 @@ VX_HD Vec3 mirrored(Vec3 to_eye, Vec3 normal) {
     return normal * (2 * dot(to_eye, normal)) - to_eye;
 }
 VX_HD bool is_sharp(const SurfacePoint& p) {
-    return p.roughness < kSharpest || p.optics == Optics::water;
+    return p.roughness < kSharpest;
 }
 VX_HD float greatest(Vec3 v) {
     const float a = v.x > v.y ? v.x : v.y;
@@ -131,6 +132,68 @@ VX_HD BsdfValue value_of_border(const SurfacePoint& p, Vec3 o, Vec3 l) {
     return value_of_border(p, o, l, h.z < 0 ? -h : h);
 }
 
+// ---- Water whose waves are too small to be seen: a Gaussian of slopes (wave_lobe.h), each a sharp border, of those
+// that the eye sees. What they bend to the wrong side of the level face is mirrored at it, as at sharp water
+// (sample_clear_border), so nothing is lost, and every direction is come to in two ways.
+
+// The chance that such a border is asked what it mirrors, which is f of the light.
+VX_HD float chance_of_mirror(const SurfacePoint& p, float f) {
+    return f * p.mirrored / (f * p.mirrored + 1 - f);
+}
+// Of directions `l` that are mirrored (through: passages), before any is turned back.
+VX_HD void add_waves(const SurfacePoint& p, const WaveLobe& w, Vec3 o, Vec3 l, bool through, float& value, float& pdf) {
+    Vec3 h = through ? o + l * p.ior : o + l;
+    if (through && p.ior > 1) h = -h;
+    if (!(h.y > 0)) return;
+    const float long2 = dot(h, h), scale = 1 / std::sqrt(long2), oh = dot(o, h) * scale, lh = dot(l, h) * scale;
+    if (oh <= 0 || (through && lh >= 0)) return;
+    const float density = density_of_slope(w, {-h.x / h.y, -h.z / h.y});
+    if (!(density > 0)) return;
+    // A slope is the normal's tangent: an area of slopes is seen as y^3 of it, and shows oh / y of the level area.
+    const float y2 = h.y * h.y / long2, seen = density / (w.visible * y2 * y2); // of normals, over oh
+    const float f = fresnel_dielectric(oh < 1 ? oh : 1, p.ior), chance = chance_of_mirror(p, f);
+    const float bend = oh + p.ior * lh, turned = through ? oh * p.ior * p.ior * -lh / (bend * bend) : 0.25f;
+    value += seen * turned * (through ? 1 - f : f);
+    pdf += seen * turned * (through ? 1 - chance : chance);
+}
+// With y up on the eye's side.
+VX_HD Vec3 above_face(const SurfacePoint& p, Vec3 v) {
+    return p.face.y > 0 ? v : -v;
+}
+VX_HD Vec3 eye_above(const SurfacePoint& p, Vec3 to_eye) {
+    const Vec3 o = above_face(p, to_eye);
+    return {o.x, o.y > 1e-4f ? o.y : 1e-4f, o.z};
+}
+VX_HD BsdfValue value_of_waves(const SurfacePoint& p, const WaveLobe& w, Vec3 o, Vec3 l) {
+    const bool through = l.y < 0;
+    float value = 0, pdf = 0;
+    add_waves(p, w, o, l, through, value, pdf);
+    add_waves(p, w, o, {l.x, -l.y, l.z}, through, value, pdf);
+    return {{value, value, value}, pdf};
+}
+VX_HD BsdfValue value_of_waves(const SurfacePoint& p, Vec3 to_eye, Vec3 to_light) {
+    const Vec3 o = eye_above(p, to_eye);
+    return value_of_waves(p, wave_lobe(p.waves, p.normal, o), o, above_face(p, to_light));
+}
+VX_HD BsdfSample sample_waves(const SurfacePoint& p, Vec3 to_eye, float choose, Vec2 u) {
+    const Vec3 o = eye_above(p, to_eye);
+    const WaveLobe w = wave_lobe(p.waves, p.normal, o);
+    const Vec2 slope = sample_slope(w, u);
+    const Vec3 h = normalized({-slope.x, 1, -slope.y});
+    const float oh = clamp(dot(o, h), 1e-5f, 1.0f);
+    float behind;
+    const float f = fresnel_dielectric(oh, p.ior, behind);
+    BsdfSample s;
+    s.through = choose >= chance_of_mirror(p, f);
+    Vec3 l = s.through ? normalized(h * (oh / p.ior - behind) - o * (1 / p.ior)) : mirrored(o, h);
+    if ((l.y < 0) != s.through) l.y = -l.y;
+    s.dir = above_face(p, l);
+    const BsdfValue v = value_of_waves(p, w, o, l);
+    s.pdf = v.pdf;
+    if (v.pdf > 0) s.weight = v.value * (1 / v.pdf);
+    return s;
+}
+
 // ----
 
 // Is `dir` on the side of the geometric face that it is on for shading?
@@ -150,6 +213,7 @@ VX_HD_CALL BsdfValue bsdf_at(const SurfacePoint& p, Vec3 to_eye, Vec3 to_light) 
         const float pdf = (kPlantUp * (to_light.y > 0 ? to_light.y : 0) + (1 - kPlantUp) * 0.25f) * (1 / kPi);
         return {p.albedo * pdf, pdf};
     }
+    if (p.optics == Optics::water) return is_sharp(p) ? BsdfValue{} : value_of_waves(p, to_eye, to_light);
     const float cosine = dot(p.normal, to_light);
     const bool through = cosine < 0;
     if (!keeps_side(p, to_light, through)) return {};
@@ -170,8 +234,9 @@ VX_HD_CALL BsdfValue bsdf_at(const SurfacePoint& p, Vec3 to_eye, Vec3 to_light) 
         const float pdf = cosine * p.opacity * (1 / kPi);
         return {p.albedo * pdf, pdf};
     }
-    case Optics::dielectric:
-    case Optics::water: {
+    case Optics::water:
+        break;
+    case Optics::dielectric: {
         if (is_sharp(p)) return {};
         const Frame f = frame_of(p.normal);
         return value_of_border(p, local_eye(f, to_eye), to_local(f, to_light));
@@ -291,8 +356,9 @@ VX_HD_CALL BsdfSample sample_bsdf(const SurfacePoint& p, Vec3 to_eye, float choo
     case Optics::leaf:
         s.through = choose >= kLeafMirrored;
         break;
-    case Optics::dielectric:
     case Optics::water:
+        return is_sharp(p) ? sample_clear_border(p, to_eye, choose) : sample_waves(p, to_eye, choose, u);
+    case Optics::dielectric:
         return is_sharp(p) ? sample_clear_border(p, to_eye, choose) : sample_rough_border(p, to_eye, choose, u);
     }
     // An even lobe, on either side.

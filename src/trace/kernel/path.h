@@ -10,6 +10,9 @@
 //     scattering, a lamp or the sun's disc found by chance behind nothing but borders (clear or rough) since that
 //     scattering is not counted: the straight ray has counted it. A lamp found by a mirror is counted; the sun's disc
 //     is not: light that water or polished metal throws onto walls from so small a source would be nothing but specks.
+//   - Water whose waves are too small for the pixel to see is a Gaussian of slopes (bsdf.h): the eye looks on by one of
+//     them, as sharply as by water that it sees as it is; but the sun is sampled there as at a scattering, so that its
+//     glitter does not come by chance. It does not count as one.
 //   - A rough border (frosted glass) scatters for light from all sides when it is the first scattering; later ones
 //     leave what comes through them to the straight ray, and take light from their own side alone.
 //   - Mist, and what floats in water and other media, scatter light once, on the way that the eye sees sharply: the
@@ -48,6 +51,7 @@ VX_HD PathState start_path(const Camera& camera, const PathSettings& settings, u
     path.sampler = sampler_of_path(settings, x, y, sample);
     path.ray = {camera.eye, start_direction(camera, x, y, next_2d(path.sampler))};
     path.medium = camera.medium;
+    path.spread = pixel_width(camera);
     sum = {};
     return path;
 }

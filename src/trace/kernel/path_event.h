@@ -29,7 +29,12 @@ VX_HD bool only_sharp(const SurfacePoint& p) {
 }
 // May be left by an exact mirror's way, or by a border's.
 VX_HD bool may_mirror(const SurfacePoint& p) {
-    return !p.plant && p.optics != Optics::leaf && (is_sharp(p) || p.optics == Optics::thin);
+    return !p.plant && p.optics != Optics::leaf &&
+           (is_sharp(p) || p.optics == Optics::thin || p.optics == Optics::water);
+}
+// Waves too small to be seen: the eye looks on by them, and lights are sampled.
+VX_HD bool rough_water(const SurfacePoint& p) {
+    return p.optics == Optics::water && !is_sharp(p);
 }
 VX_HD bool is_border(const SurfacePoint& p) {
     return p.optics == Optics::dielectric || p.optics == Optics::water || p.optics == Optics::thin;
@@ -63,10 +68,11 @@ VX_HD void add_arrived(PixelSample& sum, LightRay::Counts counts, Vec3 value, co
         add_light(sum.light, value, counts == LightRay::Counts::indirect, settings);
 }
 
-// The sky as the eye sees it; in mirrors and behind what bends the disc of sun or moon is as bright as it is.
-VX_COLD Vec3 eye_sky(const SkyView& sky, Vec3 dir, float pixel, float dither, bool bent) {
+// The sky as the eye sees it; in mirrors and behind what bends the disc of sun or moon is as bright as it is. disc: how
+// much of that counts.
+VX_COLD Vec3 eye_sky(const SkyView& sky, Vec3 dir, float pixel, float dither, float disc) {
     const Vec3 drawn = sky_seen(sky, dir, pixel, dither);
-    return bent ? drawn + sun_radiance(sky, dir) : drawn;
+    return disc > 0 ? drawn + sun_radiance(sky, dir) * disc : drawn;
 }
 
 // What stands where the ray ended, and what the path does there.
@@ -85,16 +91,26 @@ VX_HD Stretch first_stretch(const SceneView& scene, const SkyView& sky, const Pa
     return cross_stretch(scene, sky, path.ray, length, path.medium, next_1d(draws));
 }
 
+// What the eye sees by sharp ways needs no filter; what far water mirrors and shows lies on that water, to be filtered.
+VX_HD Vec3& sum_of_seen(const PathState& path, PixelSample& sum) {
+    return path.since == Since::nothing ? sum.base : sum.light;
+}
+
 // Light that the ray finds in the sky.
 template <class Draws>
 VX_HD void meet_sky(const SkyView& sky, const PathSettings& settings, float pixel, PathState& path, Draws& draws,
                     PixelSample& sum) {
+    const bool any_sun = greatest(sky.sun_light) > 0;
     if (path.sharp) {
-        sum.base += path.carried * eye_sky(sky, path.ray.dir, pixel, next_1d(draws), path.bent);
+        const float dither = next_1d(draws);
+        // The disc was aimed at from far water.
+        float disc = path.since == Since::borders || !path.bent ? 0.0f : 1.0f;
+        if (path.since == Since::straight && any_sun) disc = power_heuristic(path.pdf, sun_pdf(sky, path.ray.dir));
+        sum_of_seen(path, sum) += path.carried * eye_sky(sky, path.ray.dir, pixel, dither, disc);
         return;
     }
     Vec3 found = sky_light(sky, path.ray.dir);
-    if (greatest(sky.sun_light) > 0 && (path.since == Since::straight || path.since == Since::nothing))
+    if (any_sun && (path.since == Since::straight || path.since == Since::nothing))
         found += sun_radiance(sky, path.ray.dir) *
                  (path.since == Since::nothing ? 1 : power_heuristic(path.pdf, sun_pdf(sky, path.ray.dir)));
     add_light(sum.light, path.carried * found, true, settings);
@@ -103,23 +119,24 @@ VX_HD void meet_sky(const SkyView& sky, const PathSettings& settings, float pixe
 // Light that what was hit sends by itself.
 VX_HD void meet_emission(const SceneView& scene, const PathSettings& settings, const Hit& hit, const SurfacePoint& p,
                          bool any_lamp, const PathState& path, PixelSample& sum) {
+    if (path.sharp) {
+        sum_of_seen(path, sum) += path.carried * seen_emission(scene.states[hit.state], p.emission);
+        return;
+    }
     float weight = 1;
     if (path.since == Since::straight && any_lamp)
         weight = power_heuristic(path.pdf,
                                  chance_of_lamp(scene, path.ray.from, path.scatter_side, path.ray.dir, hit, p.face));
     else if (path.since == Since::borders && any_lamp && (hit.kind == HitKind::cube || hit.kind == HitKind::quad))
         weight = find_emitter(scene.lights, hit.cell) != kNoEmitter ? 0.0f : 1.0f;
-    if (path.sharp)
-        sum.base += path.carried * seen_emission(scene.states[hit.state], p.emission);
-    else if (weight > 0)
-        add_light(sum.light, path.carried * p.emission * weight, true, settings);
+    if (weight > 0) add_light(sum.light, path.carried * p.emission * weight, true, settings);
 }
 
-// The first surface that the eye does not see through: it guides the filter.
+// The first surface that the eye does not see through sharply: it guides the filter. Of water its level.
 VX_HD void note_guides(const SurfacePoint& p, const PathState& path, PixelSample& sum) {
     const Vec3 albedo = path.carried * p.albedo;
     sum.albedo = {std::fmax(albedo.x, 0.01f), std::fmax(albedo.y, 0.01f), std::fmax(albedo.z, 0.01f)};
-    sum.normal = p.normal;
+    sum.normal = p.optics == Optics::water ? p.face : p.normal;
     sum.distance = path.way;
     sum.roughness = p.roughness;
     sum.surface = p.surface;
@@ -142,7 +159,7 @@ VX_HD bool aim_light(const SceneView& scene, const SkyView& sky, bool lamp, cons
     if (behind && e.own_side) return false;
     const BsdfValue v = bsdf_at(p, -path.ray.dir, out.ray.dir);
     if (!(greatest(v.value) > 0)) return false;
-    if (behind && (p.optics == Optics::leaf || p.optics == Optics::dielectric))
+    if (behind && (p.optics == Optics::leaf || p.optics == Optics::dielectric || p.optics == Optics::water))
         out.ray.from = other_side(p), out.medium = p.medium_behind;
     if (lamp) out.value = lamp_emission(scene, out.ray.from, found);
     const float painted = p.optics == Optics::thin ? 1 / p.opacity : 1.0f;
@@ -160,6 +177,13 @@ VX_HD bool aim_from_air(const SceneView& scene, const SkyView& sky, bool any_lam
     out.counts = LightRay::Counts::air;
     return aim_speck(scene, sky, any_lamp, path.ray, path.medium, speck, choose, which, next_2d(draws), out.ray.from,
                      out.ray.dir, out.distance, out.value);
+}
+
+// How much wider a cone is, a block, that waves mirror or bend: by a standard deviation of their slopes each way. A
+// mirror turns a ray by twice what it turns itself, a border by what it bends.
+VX_HD float spread_by_waves(const SurfacePoint& p, bool through) {
+    const float turned = through ? std::fabs(1 - 1 / p.ior) : 2.0f;
+    return 2 * turned * std::sqrt(0.5f * (p.waves.xx + p.waves.zz));
 }
 
 // Sets the ray that the path goes on with. False: it ends.
@@ -186,7 +210,10 @@ VX_HD bool go_on(const PathSettings& settings, const Event& e, PathState& path, 
                                                     : Since::straight;
         path.pdf = e.next.pdf;
         path.scatter_side = e.side;
-        if (++path.bounces >= settings.roulette_from) {
+        if (path.sharp) { // rough water: its waves spread what a pixel sees
+            path.bent = true;
+            path.spread += spread_by_waves(p, e.next.through);
+        } else if (++path.bounces >= settings.roulette_from) {
             const float stay = clamp(greatest(path.carried), 0.05f, 1.0f);
             if (next_1d(draws) >= stay) return false;
             path.carried = path.carried * (1 / stay);
@@ -224,11 +251,12 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
         meet_sky(sky, settings, pixel, path, draws, sum);
     } else {
         SurfacePoint& p = e.p;
-        p = surface_at(scene, path.ray, hit, path.sharp ? (path.way + hit.t) * pixel : 0.0f);
         path.way += hit.t;
+        path.wide += path.spread * hit.t;
+        p = surface_at(scene, path.ray, hit, path.sharp ? path.wide : 0.0f);
         if (path.sharp && sky.open) { // far land fades into the sky behind it
             const float faded = far_share(sky, path.way);
-            if (faded > 0) sum.base += path.carried * sky_dome(sky, path.ray.dir) * faded;
+            if (faded > 0) sum_of_seen(path, sum) += path.carried * sky_dome(sky, path.ray.dir) * faded;
             path.carried = path.carried * (1 - faded);
         }
         if (greatest(p.emission) > 0) meet_emission(scene, settings, hit, p, any_lamp, path, sum);
@@ -239,17 +267,19 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
         if (!last || may_mirror(p)) e.next = sample_bsdf(p, -path.ray.dir, choose, where);
         // Thin glass that is painted in part, and came out as glass, is glass.
         e.samples_light = !only_sharp(p) && !(e.next.delta && p.optics == Optics::thin);
-        if (e.samples_light && path.sharp) {
-            path.sharp = false;
-            note_guides(p, path, sum);
+        const bool first = path.sharp;
+        if (e.samples_light && first) {
+            if (path.since == Since::nothing) note_guides(p, path, sum);
+            path.sharp = rough_water(p);
         }
-        if (e.samples_light && last) {
+        if (e.samples_light && last && !rough_water(p)) {
             e.samples_light = false;
             if (!e.next.delta) e.next.weight = {};
         }
         // Behind a rough border that is not the first scattering the straight ray has counted what comes through.
-        e.own_side = is_border(p) && (path.since == Since::straight || path.since == Since::borders);
-        const bool all_sides = p.plant || p.optics == Optics::leaf || (p.optics == Optics::dielectric && !e.own_side);
+        e.own_side = is_border(p) && !first && (path.since == Since::straight || path.since == Since::borders);
+        const bool all_sides = p.plant || p.optics == Optics::leaf || p.optics == Optics::water ||
+                               (p.optics == Optics::dielectric && !e.own_side);
         if (!all_sides) e.side = p.face;
     }
     for (u32 k = 0; k < 3; ++k) {
@@ -258,7 +288,7 @@ VX_HD bool path_event(const SceneView& scene, const SkyView& sky, const PathSett
         if (k == 2) {
             sent = floating.scatters && aim_from_air(scene, sky, any_lamp, floating, path, draws, to) &&
                    greatest(to.value) > 0;
-        } else if (e.samples_light && (k == 0 ? any_sun : any_lamp)) {
+        } else if (e.samples_light && (k == 0 ? any_sun : any_lamp && !rough_water(e.p))) {
             const float which = k == 0 ? 0 : next_1d(draws);
             const Vec2 u = next_2d(draws);
             EmitterSample found;

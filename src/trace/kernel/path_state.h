@@ -7,7 +7,7 @@
 
 namespace vitrail::trace {
 
-// How the ray came here since the last scattering at which lamps were sampled.
+// How the ray came here since the last scattering, at which lamps were sampled, or rough water.
 enum class Since : u8 {
     nothing,  // there was none
     straight, // right after it
@@ -22,9 +22,12 @@ struct PathState {
     Vec3 scatter_side;     // geometric normal at the last scattering; 0 where it takes light from all sides
     float pdf = 0;         // of the ray's direction there
     float way = 0;         // blocks since the eye, while all is sharp
+    // Cone of the pixel, while all is sharp: blocks that it is wide at the ray's start, and grows a block
+    // (Akenine-Moeller et al., "Improved Shader and Texture Level of Detail using Ray Cones", 2021).
+    float wide = 0, spread = 0;
     u32 bounces = 0, events = 0;
     Since since = Since::nothing;
-    bool sharp = true; // the eye sees this stretch sharply
+    bool sharp = true; // the eye sees this stretch sharply, or as sharply as the waves of far water let it
     bool bent = false; // by a mirror or a border that bends
     Sampler sampler;
 };

@@ -3,7 +3,8 @@
 //     radiance = base + albedo * light + air
 //
 // The guides are those of the first surface that is not seen through or mirrored sharply: behind still water or glass
-// and in mirrors the filter follows what is seen there.
+// and in mirrors the filter follows what is seen there. Of far water, which its waves roughen, they are of its level
+// surface: what it mirrors and what is seen in it, sky and lamps too, is light that arrives there.
 #pragma once
 
 #include "trace/kernel/ray.h"

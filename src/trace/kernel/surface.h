@@ -2,7 +2,8 @@
 //
 //     SurfacePoint p = surface_at(scene, ray, hit, footprint);
 //
-// footprint: blocks that the ray's pixel is wide at the hit, across the ray; 0 takes the finest texels.
+// footprint: blocks that the ray's cone is wide at the hit, across the ray: textures and waves are filtered by it. 0
+// takes the finest texels, and all waves as they are.
 #pragma once
 
 #include "math/exp.h"
@@ -102,11 +103,15 @@ VX_HD GlassLook glass_of(Vec3 color, float alpha) {
 }
 
 // Bends a shading normal until the ray sees its front.
-VX_HD Vec3 seen_from(Vec3 normal, Vec3 dir) {
-    constexpr float kLeast = 0.02f;
+VX_HD Vec3 seen_from(Vec3 normal, Vec3 dir, float least = 0.02f) {
     const float facing = -dot(normal, dir);
-    return facing >= kLeast ? normal : normalized(normal - dir * (kLeast - facing));
+    return facing >= least ? normal : normalized(normal - dir * (least - facing));
 }
+
+// Water: the roughness from which waves that are not seen one by one count as such (below, it is as sharp as it is
+// flat); what keeps their spread from being a line; the least cosine to their mean normal.
+inline constexpr float kRoughWaves = 0.06f, kLeastSpread = 1e-6f, kLeastFacing = 1e-3f;
+inline constexpr i32 kDeep = 4; // blocks
 
 inline constexpr float kPolished = 0.15f; // roughness of clear bodies below which they are smooth
 
@@ -174,8 +179,8 @@ VX_HD Vec3 emission_of(const StateRecord& r, float scale) {
 
 // A lamp's radiance as the eye takes it in. The screen has no room for what dazzles, and lamps would be white holes in
 // the picture; so, like the discs of sun and moon, they are seen as painted: in the colors of their picture, which is
-// what `emission` is without the state's hue, and as bright as the logarithm tells (Fechner 1860): what is dim is seen as
-// it is, 20 as 3, 700 as 6.6.
+// what `emission` is without the state's hue, and as bright as the logarithm tells (Fechner 1860): what is dim is seen
+// as it is, 20 as 3, 700 as 6.6.
 VX_HD Vec3 seen_emission(const StateRecord& r, Vec3 emission) {
     const auto painted = [](float e, u16 part) { return part > 0 ? e / float(part) : 0.0f; };
     const Vec3 color{painted(emission.x, r.emission[0]), painted(emission.y, r.emission[1]),
@@ -186,6 +191,21 @@ VX_HD Vec3 seen_emission(const StateRecord& r, Vec3 emission) {
     };
     const float most = greatest(color);
     return most > 0 ? color * (log_of(1 + greatest(emission)) / most) : Vec3{};
+}
+
+// Waves of a level surface: those that the ray's cone is fine enough for bend the normal, the others roughen.
+VX_HD void shade_waves(const SceneView& s, const Ray& ray, const Hit& hit, float footprint, SurfacePoint& p) {
+    const scene::WavesSeen w = scene::waves_seen({hit.cell.x, hit.cell.y, hit.cell.z}, {hit.u, hit.v}, s.seconds,
+                                                 s.wave_height, scene::wave_filter(ray.dir, footprint));
+    const Vec3 wavy = normalized({-w.slope.x, 1, -w.slope.y});
+    p.normal = hit.leaving ? -wavy : wavy;
+    const float rough = std::sqrt(std::sqrt(w.spread.xx + w.spread.zz));
+    if (rough < kRoughWaves) return;
+    p.roughness = rough;
+    // Deep water is dark: paths rather look at what it mirrors.
+    const IVec3 below{hit.cell.x, hit.cell.y - kDeep, hit.cell.z};
+    p.mirrored = !hit.leaving && s.states[state_at(s.grid, below)].medium == p.medium_behind ? 5.0f : 1.0f;
+    p.waves = {w.spread.xx + kLeastSpread, w.spread.xz, w.spread.zz + kLeastSpread};
 }
 
 // The surface of a fluid inside its cell.
@@ -211,13 +231,8 @@ VX_HD void shade_liquid_top(const SceneView& s, const Ray& ray, const Hit& hit, 
     p.albedo = {1, 1, 1};
     p.roughness = 0;
     p.normal = p.face;
-    if (top.level() && !top.covered) {
-        const scene::WaveSurface w =
-            scene::wave_at({hit.cell.x, hit.cell.y, hit.cell.z}, {hit.u, hit.v}, s.seconds, s.wave_height);
-        const Vec3 wavy = normalized({-w.slope.x, 1, -w.slope.y});
-        p.normal = hit.leaving ? -wavy : wavy;
-    }
-    p.normal = seen_from(p.normal, ray.dir);
+    if (top.level() && !top.covered && s.wave_height > 0) shade_waves(s, ray, hit, footprint, p);
+    p.normal = seen_from(p.normal, ray.dir, p.roughness > 0 ? kLeastFacing : 0.02f);
 }
 
 VX_HD_CALL SurfacePoint surface_at(const SceneView& s, const Ray& ray, const Hit& hit, float footprint) {

@@ -1,7 +1,7 @@
 #include "trace/reference/reference.h"
 
 #include "trace/kernel/air.h"
-#include "trace/kernel/bsdf.h"
+#include "trace/kernel/path_event.h"
 #include "trace/kernel/sky.h"
 #include "trace/kernel/surface.h"
 #include "trace/kernel/traverse.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr double kPiD = 3.14159265358979;
 
 bool sharp_border(const SurfacePoint& p) {
-    return p.optics == Optics::water || (p.optics == Optics::dielectric && p.roughness < kSharpest);
+    return (p.optics == Optics::water || p.optics == Optics::dielectric) && p.roughness < kSharpest;
 }
 bool sharp_metal(const SurfacePoint& p) {
     return p.optics == Optics::metal && p.roughness < kSharpest;
@@ -120,7 +120,7 @@ Vec3 Reference::scattered_in(const Ray& ray, float length, u32 medium) {
 }
 
 // Light of sun and lamps (and sky) along a straight ray through borders. first_too: also of what it meets before any.
-Vec3 Reference::straight_light(Ray ray, u32 medium, bool sky_too, bool first_too) {
+Vec3 Reference::straight_light(Ray ray, u32 medium, bool sky_too, bool first_too, bool lamps) {
     Vec3 carried{1, 1, 1};
     for (int crossed = 0; crossed < 64; ++crossed) {
         Hit hit;
@@ -148,15 +148,34 @@ Vec3 Reference::straight_light(Ray ray, u32 medium, bool sky_too, bool first_too
             break;
         }
         default:
-            return crossed == 0 && !first_too ? Vec3{} : carried * p.emission;
+            return !lamps || (crossed == 0 && !first_too) ? Vec3{} : carried * p.emission;
         }
         ray.from = beyond(p, ray.dir);
     }
     return {};
 }
 
+// One wave of those that are too small to be seen, at random: its normal by the Gaussian of all slopes. seen: how much
+// of it is, over the mean of all.
+Vec3 Reference::wave_at_random(const SurfacePoint& p, Vec3 eye, float& seen) {
+    const double side = p.face.y > 0 ? 1 : -1, ox = side * double(eye.x), oy = side * double(eye.y),
+                 oz = side * double(eye.z);
+    const double mx = -double(p.normal.x) / double(p.normal.y), mz = -double(p.normal.z) / double(p.normal.y);
+    const double xx = p.waves.xx, xz = p.waves.xz, zz = p.waves.zz;
+    std::normal_distribution<double> gauss;
+    const double a = gauss(random_), b = gauss(random_);
+    const double x = mx + std::sqrt(xx) * a, z = mz + xz / std::sqrt(xx) * a + std::sqrt(zz - xz * xz / xx) * b;
+    const double mean = oy - ox * mx - oz * mz, deviation = std::sqrt(ox * ox * xx + 2 * ox * oz * xz + oz * oz * zz),
+                 c = mean / deviation;
+    const double all =
+        mean * 0.5 * std::erfc(-c / std::sqrt(2.0)) + deviation * std::exp(-0.5 * c * c) / std::sqrt(2 * kPiD);
+    seen = float(std::max(0.0, oy - ox * x - oz * z) / all);
+    return normalized(Vec3{float(-side * x), float(side), float(-side * z)});
+}
+
+// wide, spread: the eye's cone at the ray's start, in blocks, and what it grows a block.
 Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, Way way, bool sharp, bool bent,
-                           float before) {
+                           float before, float wide, float spread) {
     if (events == scene_.settings.events_most) return {};
     Hit hit;
     const bool met = closest_hit(scene_.view, ray, kFar, medium, hit);
@@ -167,10 +186,13 @@ Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, 
     const float pixel = 2 * length_of_pixel();
     if (!met) {
         Vec3 found = sharp ? sky_seen(scene_.sky, ray.dir, pixel, unit()) : sky_light(scene_.sky, ray.dir);
-        if (sharp ? bent : way == Way::next || way == Way::eye) found += sun_radiance(scene_.sky, ray.dir);
+        if (sharp ? bent && way != Way::borders : way == Way::next || way == Way::eye)
+            found += sun_radiance(scene_.sky, ray.dir);
         return sum + carried * found;
     }
-    const SurfacePoint p = surface_at(scene_.view, ray, hit, 0);
+    wide += spread * length;
+    // Textures are as fine as they are; waves are filtered, which is as true.
+    const SurfacePoint p = surface_at(scene_.view, ray, hit, sharp && hit.quad == kLiquidSurface ? wide : 0.0f);
     const float whole = before + length;
     if (sharp && scene_.sky.open) { // far land fades into the sky
         const double x = double(whole) / double(scene_.sky.view_distance), x2 = x * x;
@@ -178,9 +200,30 @@ Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, 
         sum += times(carried * sky_dome(scene_.sky, ray.dir), faded);
         carried = times(carried, 1 - faded);
     }
-    if (way != Way::borders) sum += carried * (sharp ? as_seen(scene_.view.states[hit.state], p.emission) : p.emission);
+    if (sharp || way != Way::borders)
+        sum += carried * (sharp ? as_seen(scene_.view.states[hit.state], p.emission) : p.emission);
 
     const Vec3 eye = -ray.dir;
+    if (p.optics == Optics::water && !sharp_border(p)) {
+        // Far water: on by one of its waves, which is seen as sharply as they let it; not counted as a scattering.
+        // The sun shines on it straight through borders.
+        float seen;
+        const Vec3 wave = wave_at_random(p, eye, seen);
+        if (!(seen > 0)) return sum;
+        const double c = std::min(1.0, double(dot(eye, wave))), index = p.ior;
+        const bool through = unit() >= mirrored_share(c, index);
+        Vec3 next = ray.dir + times(wave, 2 * c);
+        if (through)
+            next = normalized(times(ray.dir, 1 / index) +
+                              times(wave, c / index - std::sqrt(1 - (1 - c * c) / (index * index))));
+        if ((next.y * p.face.y < 0) != through) next.y = -next.y;
+        const Ray on{through ? beyond(p, next) : p.at, next};
+        const u32 inside = through ? p.medium_behind : medium;
+        const float grows = spread + spread_by_waves(p, through);
+        const Vec3 found = light_from(on, inside, bounces, events + 1, Way::next, true, true, whole, wide, grows) +
+                           straight_light(on, inside, false, false, false);
+        return sum + times(carried * found, double(seen));
+    }
     // Exact mirrors and passages, one at random.
     if (sharp_border(p) || sharp_metal(p) || (p.optics == Optics::thin && unit() >= p.opacity)) {
         Vec3 next = ray.dir - times(p.normal, 2 * double(dot(ray.dir, p.normal)));
@@ -190,7 +233,7 @@ Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, 
             const Vec3 color = times(p.albedo, 1 - s) + times({1, 1, 1}, s);
             return sum + carried * color *
                              light_from({p.at, next}, medium, bounces, events + 1, way == Way::eye ? way : Way::mirrors,
-                                        sharp, true, whole);
+                                        sharp, true, whole, wide, spread);
         }
         const bool thin = p.optics == Optics::thin;
         const double f = mirrored_share(double(dot(eye, p.normal)), p.ior), share = thin ? 2 * f / (1 + f) : f;
@@ -200,7 +243,7 @@ Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, 
                 next = next - times(p.face, 2 * double(dot(next, p.face)));
             }
             return sum + carried * light_from({p.at, next}, medium, bounces, events + 1,
-                                              way == Way::eye ? way : Way::mirrors, sharp, true, whole);
+                                              way == Way::eye ? way : Way::mirrors, sharp, true, whole, wide, spread);
         }
         Vec3 on = ray.dir;
         if (!thin) { // Snell
@@ -211,7 +254,7 @@ Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, 
         const Way then = way == Way::eye ? way : way == Way::mirrors ? way : Way::borders;
         return sum + carried * p.albedo *
                          light_from({beyond(p, on), on}, thin ? medium : u32(p.medium_behind), bounces, events + 1,
-                                    then, sharp, bent || !thin, whole);
+                                    then, sharp, bent || !thin, whole, wide, spread);
     }
     if (bounces == scene_.settings.bounces) return sum;
 
@@ -224,10 +267,11 @@ Vec3 Reference::light_from(const Ray& ray, u32 medium, u32 bounces, u32 events, 
     const Ray next{through ? beyond(p, dir) : p.at, dir};
     const u32 inside = border && through ? p.medium_behind : medium;
     // A rough border behind a scattering: the straight ray from there has counted what comes through.
-    if (border && through && (way == Way::next || way == Way::borders))
-        return sum + carried * value * light_from(next, inside, bounces + 1, events + 1, Way::borders, false, true, 0);
+    if (border && through && !sharp && (way == Way::next || way == Way::borders))
+        return sum +
+               carried * value * light_from(next, inside, bounces + 1, events + 1, Way::borders, false, true, 0, 0, 0);
     return sum + carried * value *
-                     (light_from(next, inside, bounces + 1, events + 1, Way::next, false, true, 0) +
+                     (light_from(next, inside, bounces + 1, events + 1, Way::next, false, true, 0, 0, 0) +
                       straight_light(next, inside, false, false));
 }
 
@@ -237,7 +281,8 @@ float Reference::length_of_pixel() const {
 
 Vec3 Reference::sample(u32 x, u32 y) {
     const Vec3 dir = direction_through(scene_.camera, float(x) + unit(), float(y) + unit());
-    return light_from({scene_.camera.eye, dir}, scene_.camera.medium, 0, 0, Way::eye, true, false, 0);
+    return light_from({scene_.camera.eye, dir}, scene_.camera.medium, 0, 0, Way::eye, true, false, 0, 0,
+                      2 * length_of_pixel());
 }
 
 } // namespace vitrail::test

@@ -7,6 +7,7 @@
 // the light of sun and lamps, and the true way for all other light.
 #pragma once
 
+#include "trace/kernel/surface_point.h"
 #include "trace/scenes.h"
 
 #include <random>
@@ -25,8 +26,9 @@ private:
     // How light got here since the last scattering.
     enum class Way { eye, next, borders, mirrors };
     Vec3 light_from(const trace::Ray& ray, u32 medium, u32 bounces, u32 events, Way way, bool sharp, bool bent,
-                    float before);
-    Vec3 straight_light(trace::Ray ray, u32 medium, bool sky_too, bool first_too);
+                    float before, float wide, float spread);
+    Vec3 wave_at_random(const trace::SurfacePoint& p, Vec3 eye, float& seen);
+    Vec3 straight_light(trace::Ray ray, u32 medium, bool sky_too, bool first_too, bool lamps = true);
     Vec3 scattered_in(const trace::Ray& ray, float length, u32 medium);
     Vec3 left(const trace::Ray& ray, float length, u32 medium, bool mist) const;
     double density(trace::Place at) const;
