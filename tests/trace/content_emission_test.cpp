@@ -4,8 +4,11 @@
 #include "math/color.h"
 #include "scene/lamp_light.h"
 #include "trace/content/emission.h"
+#include "trace/kernel/lights.h"
+#include "trace/kernel/sampler.h"
 #include "trace/kernel/surface.h"
 #include "trace/kernel/traverse.h"
+#include "trace/lights/light_store.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -83,6 +86,47 @@ TEST(TraceEmission, LampsLightTheWallThatFacesThem) {
         const float share = luminance_of(best) / (scene::lamp_return(level) * lamp.share);
         EXPECT_GT(share, lamp.least) << lamp.state;
         EXPECT_LT(share, 1.15f) << lamp.state;
+    }
+}
+
+// Lamps that are aimed at bring what rays all over their cell find, though only the parts that shine are aimed at.
+TEST(TraceEmission, ShiningPartsBringTheWhole) {
+    const struct {
+        const char* state;
+        float aimed; // share of the samples that find light, at least
+    } lamps[] = {{"torch", 0.7f}, {"wall_torch[facing=north]", 0.5f}, {"lantern", 0.25f}, {"campfire", 0.05f}};
+    for (const auto& lamp : lamps) {
+        ContentChunk chunk;
+        chunk.set(8, 8, 8, lamp.state);
+        SceneView view = chunk.scene();
+        LightStore lights;
+        lights.set_states(view, u32(base_content().tables.quads().size()));
+        Chunk all;
+        all.blocks = chunk.blocks();
+        lights.mark({0, 0, 0}, std::make_shared<Chunk>(std::move(all)));
+        lights.update(view.grid);
+        view.lights = lights.view();
+        constexpr u32 kSamples = 16384;
+        for (const u32 face : {1u, 4u}) {
+            const Vec3 axis = axis_of_face(face), side = -axis;
+            const Place at = moved({{8, 8, 8}, {0.5f, 0.5f, 0.5f}}, axis, 2.49f);
+            Vec3 sum;
+            u32 found = 0;
+            for (u32 i = 0; i < kSamples; ++i) {
+                Sampler draws = make_sampler(i & 127, i >> 7, 0, 1);
+                const float choose = next_1d(draws);
+                EmitterSample to;
+                if (!sample_emitter(view, at, side, choose, next_2d(draws), to)) continue;
+                Hit hit;
+                if (!closest_hit(view, {at, to.dir}, kFar, 0, hit) || hit.t < to.distance - 2e-3f) continue;
+                const Vec3 light = surface_at(view, {at, to.dir}, hit, 0).emission;
+                found += luminance_of(light) > 0;
+                sum += light * (std::max(0.0f, dot(to.dir, side)) / (to.pdf * 3.14159265f * float(kSamples)));
+            }
+            const float want = luminance_of(wall_return(view, {8, 8, 8}, face, 256, 2.5f));
+            EXPECT_NEAR(luminance_of(sum), want, 0.08f * want) << lamp.state << " " << face;
+            EXPECT_GT(float(found) / kSamples, lamp.aimed) << lamp.state << " " << face;
+        }
     }
 }
 
