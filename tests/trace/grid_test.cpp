@@ -1,6 +1,7 @@
 // The grid kept by edits, chunks that come and go, and moves of the window equals one that is built at once.
 #include "grid_world.h"
 
+#include <functional>
 #include <gtest/gtest.h>
 
 namespace vitrail::trace {
@@ -61,10 +62,37 @@ void expect_right_skips(Grid& grid) {
               (IVec3{most.x - least.x, most.y - least.y, most.z - least.z}));
 }
 
+enum class Water : u8 { other, full, level };
+
+// Whether rays in water have to look into a cell, from states alone.
+Water water_at(const std::vector<StateRecord>& states, IVec3 at, const std::function<u32(IVec3)>& state) {
+    const auto of = [&](i32 x, i32 y, i32 z) -> const StateRecord& {
+        return states[state({at.x + x, at.y + y, at.z + z})];
+    };
+    if (of(0, 0, 0).kind != CellKind::liquid || of(0, 0, 0).medium != 1) return Water::other;
+    if (of(0, 1, 0).medium == 1) return Water::full;
+    for (i32 i = 0; i < 9; ++i) {
+        const StateRecord &beside = of(i % 3 - 1, 0, i / 3 - 1), &above = of(i % 3 - 1, 1, i / 3 - 1);
+        if (beside.medium == 1 && (beside.liquid_height != 227 || above.medium == 1)) return Water::other;
+    }
+    // So its surface is flat.
+    const scene::LiquidSlope h = scene::liquid_slope([&](i32 dx, i32 dz) {
+        const StateRecord& r = of(dx, 0, dz);
+        return r.medium != 1               ? scene::kLiquidNone
+               : of(dx, 1, dz).medium == 1 ? scene::kLiquidUnderLiquid
+                                           : i32(r.liquid_height) + 1;
+    });
+    for (const i32 corner : {h.h00, h.h01, h.h10, h.h11})
+        EXPECT_EQ(corner, 228);
+    return Water::level;
+}
+
 // What the grid must say of every cell of its window, from states alone.
 void expect_right(const GridWorld& world, Grid& grid, IVec3 corner, const std::function<u32(IVec3)>& state) {
     const GridView g = grid.view();
     ASSERT_EQ(g.first, (IVec3{corner.x >> 4, corner.y >> 4, corner.z >> 4}));
+    ASSERT_EQ(g.water, 1u);
+    ASSERT_EQ(g.water_top, 228u);
     const auto& states = world.content.states;
     for (i32 cy = 0; cy < 4; ++cy)
         for (i32 cz = 0; cz < 4; ++cz)
@@ -73,25 +101,26 @@ void expect_right(const GridWorld& world, Grid& grid, IVec3 corner, const std::f
                 const GridChunk& c = g.chunks[slot_of(g, chunk)];
                 const u32 area_bit = u32(chunk.x & 3) | u32(chunk.z & 3) << 2 | u32(chunk.y & 3) << 4;
                 u64 bricks[2] = {0, 0};
+                u32 not_calm = 0, full = 0, level = 0; // layers that have such cells
                 for (u32 cell = 0; cell < 4096; ++cell) {
                     const u32 x = cell & 15, z = cell >> 4 & 15, y = cell >> 8;
                     const IVec3 at{chunk.x * 16 + i32(x), chunk.y * 16 + i32(y), chunk.z * 16 + i32(z)};
-                    const u32 is = state(at), above = state({at.x, at.y + 1, at.z});
+                    const u32 is = state(at);
                     ASSERT_EQ(state_at(g, at), is);
                     const u32 brick = x / 4 | z / 4 << 2 | y / 4 << 4, bit = x % 4 | (z % 4) << 2 | (y % 4) << 4;
-                    const bool full_water =
-                        states[is].kind == CellKind::liquid && states[is].medium == 1 && states[above].medium == 1;
-                    const bool stops[2] = {states[is].kind != CellKind::empty, !full_water};
+                    const Water water = water_at(states, at, state);
+                    (water == Water::full ? full : water == Water::level ? level : not_calm) |= 1u << y;
+                    const bool stops[2] = {states[is].kind != CellKind::empty, water == Water::other};
                     for (u32 set = 0; set < 2; ++set) {
                         ASSERT_EQ(g.masks[c.masks[set] * 64 + brick] >> bit & 1, u64(stops[set])) << set;
                         bricks[set] |= u64(stops[set]) << brick;
                     }
                     ASSERT_EQ(g.masks[c.opaque * 64 + brick] >> bit & 1, u64(states[is].kind == CellKind::cube));
                 }
-                for (u32 set = 0; set < 2; ++set) {
+                ASSERT_EQ(c.layers, (full & ~not_calm) | (level & ~not_calm) << 16);
+                for (u32 set = 0; set < 2; ++set)
                     ASSERT_EQ(c.bricks[set], bricks[set]);
-                    ASSERT_EQ(g.areas[set][area_slot_of(g, chunk)] >> area_bit & 1, u64(bricks[set] != 0));
-                }
+                ASSERT_EQ(g.areas[area_slot_of(g, chunk)] >> area_bit & 1, u64(bricks[0] != 0));
             }
 }
 
@@ -105,6 +134,7 @@ TEST(Grid, BuiltAtOnce) {
     world.scatter(rng, t_stone, 0.2, 4);
     world.scatter(rng, t_water, 0.2, 8);
     world.scatter(rng, t_sunken, 0.02);
+    world.scatter(rng, t_flow, 0.004);
     ThreadPool pool(2);
     world.upload(&pool);
     expect_right(world);
@@ -151,6 +181,57 @@ TEST(Grid, EditsEqualARebuild) {
             world.at(cx * 16 + LocalPos(c).x(), cy * 16 + LocalPos(c).y(), cz * 16 + LocalPos(c).z()) = t_water;
         expect_right(world);
     }
+}
+
+// Water that comes, goes and flows at the corner where eight chunks meet, one block at a time.
+TEST(Grid, LevelWaterFollowsEditsAcrossBorders) {
+    Rng rng(18);
+    GridWorld world({0, -4, 8});
+    const auto at = [&](i32 x, i32 y, i32 z) {
+        return BlockPos{world.corner().x + x, world.corner().y + y, world.corner().z + z};
+    };
+    for (const i32 top : {15, 16}) { // the surface's layer: a chunk's highest, and its lowest
+        for (i32 z = 0; z < 64; ++z)
+            for (i32 x = 0; x < 64; ++x)
+                for (i32 y = 0; y < 64; ++y)
+                    world.at(x, y, z) = y < 12 ? t_stone : y <= top ? t_water : t_air;
+        world.upload();
+        const GridView g = world.grid.view();
+        ASSERT_EQ(g.chunks[slot_of(g, {g.first.x + 1, g.first.y + top / 16, g.first.z + 1})].layers >> 16,
+                  1u << top % 16);
+        expect_right(world);
+        for (u32 i = 0; i < 12; ++i) {
+            const i32 x = 15 + i32(rng.below(2)), y = top + i32(rng.below(2)), z = 15 + i32(rng.below(2));
+            constexpr u32 kStates[] = {t_air, t_water, t_flow, t_sunken, t_stone};
+            world.at(x, y, z) = kStates[rng.below(5)];
+            world.grid.apply(EditBatch{{{at(x, y, z), StateId(world.at(x, y, z))}}});
+            if (i % 2 == 0 || i > 8) expect_right(world);
+        }
+        // A chunk of the corner goes: where water was there is air.
+        world.grid.set_chunk(world.chunk_pos(1, top / 16, 1), nullptr);
+        for (u32 c = 0; c < 4096; ++c)
+            world.at(16 + LocalPos(c).x(), top / 16 * 16 + LocalPos(c).y(), 16 + LocalPos(c).z()) = t_air;
+        expect_right(world);
+    }
+}
+
+// What is not up to date is not told.
+TEST(Grid, WaterIsUnknownUntilRefreshed) {
+    GridWorld world;
+    for (i32 i = 0; i < 64 * 64 * 64; ++i)
+        world.at(i % 64, i / 4096, i / 64 % 64) = i / 4096 < 20 ? t_water : t_air;
+    world.upload();
+    const Grid& grid = world.grid;
+    EXPECT_EQ(grid.view().water, 0u);
+    world.grid.refresh();
+    EXPECT_EQ(grid.view().water, 1u);
+    const IVec3 o = world.corner();
+    world.grid.apply(EditBatch{{{{o.x + 5, o.y + 20, o.z + 5}, StateId(t_water)}}});
+    EXPECT_EQ(grid.view().water, 0u);
+    world.grid.refresh();
+    EXPECT_EQ(grid.view().water, 1u);
+    world.grid.apply(EditBatch{{{{o.x + 5, o.y + 20, o.z + 5}, StateId(t_water)}}}); // as it is
+    EXPECT_EQ(grid.view().water, 1u);
 }
 
 // Bricks that fill and become empty, in windows of several sizes, at once and one by one, with moves between.
@@ -219,12 +300,17 @@ TEST(Grid, MovesKeepWhatStaysAndDropTheRest) {
                 const auto it = held.find(c);
                 return it == held.end() ? u32(0) : u32(it->second);
             };
-            const u32 state = state_of(at), above = state_of({at.x, at.y + 1, at.z});
+            const u32 state = state_of(at);
             ASSERT_EQ(state_at(g, {at.x * 16 + 3, at.y * 16 + 15, at.z * 16 + 9}), state);
-            const bool wet = state == t_water && (above == t_water || above == t_sunken);
             const GridChunk& c = g.chunks[slot_of(g, {at.x, at.y, at.z})];
-            ASSERT_EQ(g.masks[c.masks[1] * 64 + 63] >> 63 & 1, u64(!wet));
-            ASSERT_EQ(g.masks[c.masks[1] * 64] & 1, u64(state != t_water));
+            for (i32 k = 0; k < 16; ++k) { // cells along its edges
+                const IVec3 cell{at.x * 16 + (k & 1) * 15, at.y * 16 + (k & 2 ? 15 : 5 * (k >> 3)),
+                                 at.z * 16 + (k >> 2 & 1) * 15};
+                const Water water = water_at(world.content.states, cell, [&](IVec3 p) {
+                    return state_of(chunk_of(BlockPos{p.x, p.y, p.z}));
+                });
+                ASSERT_EQ(is_calm(g, cell), water != Water::other);
+            }
             ASSERT_EQ(c.bricks[0], state ? ~u64(0) : 0);
         }
     }

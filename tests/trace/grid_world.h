@@ -13,7 +13,19 @@
 
 namespace vitrail::trace {
 
-enum TestState : u32 { t_air, t_hidden, t_stone, t_glass, t_water, t_leaves, t_thin, t_plant, t_sunken, t_states };
+enum TestState : u32 {
+    t_air,
+    t_hidden,
+    t_stone,
+    t_glass,
+    t_water,
+    t_leaves,
+    t_thin,
+    t_plant,
+    t_sunken,
+    t_flow, // water of half the height
+    t_states
+};
 
 // Media: 1 water, 2 glass.
 struct TestContent {
@@ -34,6 +46,7 @@ struct TestContent {
         states[t_plant].kind = CellKind::model, states[t_plant].first_quad = 0, states[t_plant].quads = 2;
         states[t_sunken] = states[t_plant], states[t_sunken].medium = 1;
         states[t_sunken].liquid_height = 227;
+        states[t_flow] = states[t_water], states[t_flow].liquid_height = 113;
         for (u32 s = 0; s < t_states; ++s)
             for (u64 f = 0; f < 6; ++f)
                 states[s].faces[f] = f << 20;
@@ -105,6 +118,12 @@ public:
         content.fill(s);
         s.grid = grid.view();
         boxes.fill(s);
+        return s;
+    }
+    // The same, but each cell of water has to be looked into.
+    SceneView slow_scene() {
+        SceneView s = scene();
+        s.grid.water = 0;
         return s;
     }
     // Every cell `state` with this chance; in boxes of this side.

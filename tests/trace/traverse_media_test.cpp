@@ -20,7 +20,7 @@ class Reference {
 public:
     Reference(GridWorld& world, const Ray& ray, u32 medium)
         : world_(world)
-        , scene_(world.scene())
+        , scene_(world.slow_scene())
         , ray_(ray)
         , medium_(medium) {
         struct Cell {
@@ -259,7 +259,7 @@ TEST(TraverseMedia, WaysAboveWaterMeetTheSame) {
                                                                                    : i % 4 == 2 ? t_stone
                                                                                                 : t_water;
     world.upload();
-    SceneView quick = world.scene(), slow = quick;
+    SceneView quick = world.scene(), slow = world.slow_scene();
     std::vector<MediumRecord> media = world.content.media;
     media[1].liquid_top = 256; // no promise
     slow.media = media.data();
@@ -295,8 +295,8 @@ TEST(TraverseMedia, DeepWaterIsCrossedInFewSteps) {
     const IVec3 o = world.corner();
     const Ray ray{{{o.x + 1, o.y + 60, o.z + 1}, {0.5f, 0.5f, 0.5f}}, normalized({1, -0.9f, 0.95f})};
     Walk w = start_walk(ray);
-    u32 steps = 30;
-    EXPECT_EQ(next_stop(s.grid, ray, w, Seek::water, 1e30, steps), Walked::stopped);
+    u32 steps = 12;
+    EXPECT_EQ(next_in_water(s.grid, ray, w, 1e30, steps), Walked::stopped);
     EXPECT_FALSE(in_window_cell(s.grid, w.cell()));
 }
 

@@ -131,8 +131,7 @@ void SceneMirror::point(const MirrorSource& source, const SkyView* sky) {
         const auto grid = [&](auto& pointer, GridBuffer which) { set(pointer, u32(which)); };
         SceneView& v = views_[i].scene;
         v = source.view;
-        grid(v.grid.areas[0], GridBuffer::areas_air);
-        grid(v.grid.areas[1], GridBuffer::areas_water);
+        grid(v.grid.areas, GridBuffer::areas);
         grid(v.grid.chunks, GridBuffer::chunks);
         grid(v.grid.masks, GridBuffer::masks);
         grid(v.grid.palettes, GridBuffer::palettes);

@@ -2,12 +2,13 @@
 
 namespace vitrail::trace {
 
-u8 state_class(const StateRecord& state, u32 water) {
+u8 state_class(const StateRecord& state, u32 water, u32 top) {
     u8 c = 0;
     if (state.kind != CellKind::empty) c |= kStopsAir;
     if (state.kind == CellKind::cube) c |= kOpaque;
     if (water != 0 && state.medium == water && state.kind != CellKind::empty) {
         c |= kHoldsWater;
+        if (((u32(state.liquid_height) + 1 + 2) & ~3u) != top) c |= kOddWater;
         if (state.kind == CellKind::liquid) c |= kWaterCell;
     }
     return c;
@@ -30,31 +31,14 @@ BrickMasks bricks_of(const CellMask& cells) {
 }
 
 void make_chunk_masks(const BlockStorage& blocks, const u8* class_of, ChunkMasks& out) {
-    CellMask cells[4];
-    classify_cells(blocks, class_of, 4, cells);
-    const CellMask &air = cells[0], &opaque = cells[1], &liquid = cells[2], &water = cells[3];
-    out.stops[0] = bricks_of(air);
-    out.opaque = bricks_of(opaque);
-    CellMask through;
-    for (u32 i = 0; i < 64; ++i)
-        through[i] = ~(liquid[i] & (i < 60 ? water[i + 4] : 0));
-    out.stops[1] = bricks_of(through);
-    for (u32 z = 0; z < 16; ++z) {
-        out.water_floor[z] = u16(water[z >> 2] >> 16 * (z & 3));
-        out.water_ceiling[z] = u16(liquid[60 + (z >> 2)] >> 16 * (z & 3));
-    }
-}
-
-void apply_water_above(BrickMasks& stops_water, const LayerMask& ceiling, const LayerMask& floor_above) {
-    for (u32 bz = 0; bz < 4; ++bz)
-        for (u32 bx = 0; bx < 4; ++bx) {
-            u64 layer = 0;
-            for (u32 z = 0; z < 4; ++z)
-                layer |= u64((ceiling[bz * 4 + z] & floor_above[bz * 4 + z]) >> (4 * bx) & 15) << 4 * z;
-            u64& word = stops_water[bx | bz << 2 | 3 << 4];
-            word |= 0xFFFFull << 48;
-            word &= ~(layer << 48);
-        }
+    u32 any = 0;
+    for (std::size_t i = 0; i < blocks.palette().size(); ++i)
+        any |= class_of[i];
+    CellMask cells[kStateClasses]{};
+    classify_cells(blocks, class_of, any & kHoldsWater ? kStateClasses : 2, cells);
+    out.stops = bricks_of(cells[0]);
+    out.opaque = bricks_of(cells[1]);
+    out.water = {cells[2], cells[3], cells[4]};
 }
 
 } // namespace vitrail::trace

@@ -14,29 +14,31 @@ enum StateClass : u8 {
     kOpaque = 2,     // an opaque cube and no more
     kWaterCell = 4,  // a liquid of water: without a surface where there is water above
     kHoldsWater = 8, // that, or a model that stands in water
+    kOddWater = 16,  // that whose surface, where it is flat, is not the highest, as that of sources is
 };
+inline constexpr u32 kStateClasses = 5;
 
-// water: the medium of kind 1; 0: there is none.
-u8 state_class(const StateRecord& state, u32 water);
+// water: the medium of kind 1, 0: there is none; top: its MediumRecord::liquid_top.
+u8 state_class(const StateRecord& state, u32 water, u32 top);
 
 using BrickMasks = std::array<u64, 64>; // a word a brick
 
 // Cells of one layer, a row of z each, bit x.
 using LayerMask = std::array<u16, 16>;
 
+// Cells of kWaterCell, kHoldsWater, kOddWater.
+struct WaterCells {
+    CellMask liquid, holds, odd;
+};
+
 struct ChunkMasks {
-    BrickMasks stops[2]; // by Through; water: as if there was no water above the chunk
+    BrickMasks stops; // rays through air
     BrickMasks opaque;
-    LayerMask water_floor{};   // cells of the lowest layer that hold water
-    LayerMask water_ceiling{}; // liquids of the highest layer: full where the chunk above has water over them
+    WaterCells water;
 };
 
 // class_of: a class for each palette entry of `blocks`.
 void make_chunk_masks(const BlockStorage& blocks, const u8* class_of, ChunkMasks& out);
-
-// Liquids under the water of the chunk above are full: takes them out of the water masks' highest layer, and puts those
-// in that are not.
-void apply_water_above(BrickMasks& stops_water, const LayerMask& ceiling, const LayerMask& floor_above);
 
 // Cells in LocalPos order to bricks.
 BrickMasks bricks_of(const CellMask& cells);

@@ -10,8 +10,6 @@ namespace vitrail::trace {
 
 namespace {
 
-constexpr LayerMask kDryLayer{};
-
 GridChunk absent_chunk() {
     GridChunk c{};
     c.bricks[0] = 0, c.bricks[1] = ~u64(0); // air stops rays through water
@@ -31,13 +29,6 @@ u32 palette_capacity(std::size_t entries) {
     return u32(std::bit_ceil(entries));
 }
 
-ChunkPos above(ChunkPos at) {
-    return {at.x, at.y + 1, at.z};
-}
-ChunkPos below(ChunkPos at) {
-    return {at.x, at.y - 1, at.z};
-}
-
 } // namespace
 
 Grid::Grid(const GridShape& shape)
@@ -45,8 +36,7 @@ Grid::Grid(const GridShape& shape)
     VX_ASSERT(shape.bits_x >= 2 && shape.bits_x <= 7 && shape.bits_y >= 2 && shape.bits_y <= 7 && shape.bits_z >= 2 &&
               shape.bits_z <= 7);
     const u32 bits = shape.bits_x + shape.bits_y + shape.bits_z;
-    for (auto& areas : areas_)
-        areas.resize(std::size_t(1) << (bits - 6));
+    areas_.resize(std::size_t(1) << (bits - 6));
     chunks_.resize(std::size_t(1) << bits);
     palette_sizes_.resize(std::size_t(1) << bits);
     first_ = {-(1 << shape.bits_x) / 2, -(1 << shape.bits_y) / 2, -(1 << shape.bits_z) / 2};
@@ -54,12 +44,12 @@ Grid::Grid(const GridShape& shape)
 }
 
 void Grid::clear() {
-    std::fill(areas_[0].begin(), areas_[0].end(), u64(0));
-    std::fill(areas_[1].begin(), areas_[1].end(), ~u64(0));
+    std::fill(areas_.begin(), areas_.end(), u64(0));
     std::fill(chunks_.begin(), chunks_.end(), absent_chunk());
     std::fill(palette_sizes_.begin(), palette_sizes_.end(), u16(0));
     masks_.clear(), indices_.clear(), palettes_.clear(), tints_.clear();
-    tint_blocks_.clear(), tint_hashes_.clear(), edges_.clear();
+    tint_blocks_.clear(), tint_hashes_.clear();
+    calm_.clear();
     held_count_ = 0;
     BrickMasks none{}, all;
     all.fill(~u64(0));
@@ -71,8 +61,7 @@ void Grid::clear() {
     tints_.fill(tints_.take(kTintWords), plain);
     skips_.reset(shape_.bits_x, shape_.bits_y, shape_.bits_z);
     stale_ = true;
-    for (u32 i = 0; i < 2; ++i)
-        areas_dirty_[i].add(0, areas_[i].size() * sizeof(u64));
+    areas_dirty_.add(0, areas_.size() * sizeof(u64));
     chunks_dirty_.add(0, chunks_.size() * sizeof(GridChunk));
 }
 
@@ -80,14 +69,15 @@ void Grid::set_states(std::span<const StateRecord> states, std::span<const Mediu
     u32 water = 0;
     for (u32 i = 1; i < media.size() && water == 0; ++i)
         if (media[i].kind == 1) water = i;
+    const u32 top = media.empty() ? 0 : media[water].liquid_top;
     std::vector<u8> classes(states.size());
     for (std::size_t i = 0; i < states.size(); ++i)
-        classes[i] = state_class(states[i], water);
+        classes[i] = state_class(states[i], water, top);
     const std::size_t known = std::min(classes.size(), classes_.size());
     const bool same = classes.size() >= classes_.size() &&
                       std::equal(classes_.begin(), classes_.begin() + std::ptrdiff_t(known), classes.begin());
     classes_ = std::move(classes);
-    water_ = water;
+    water_ = water, water_top_ = top;
     if (!same) remake_all();
 }
 
@@ -163,6 +153,7 @@ void Grid::note_bricks(ChunkPos at, u64 before, u64 after) {
 }
 
 void Grid::refresh(ThreadPool* pool) {
+    refresh_water(pool);
     if (!stale_) return;
     stale_ = false;
     const GridView g = plain_view();
@@ -173,7 +164,7 @@ void Grid::refresh(ThreadPool* pool) {
         for (i32 z = 0; z < 1 << (shape_.bits_z - 2); ++z)
             for (i32 x = 0; x < 1 << (shape_.bits_x - 2); ++x) {
                 const IVec3 at{first_.x + x * 4, first_.y + y * 4, first_.z + z * 4};
-                const u64 word = areas_[0][area_slot_of(g, at)];
+                const u64 word = areas_[area_slot_of(g, at)];
                 if (word == 0) continue;
                 // Bits of an area: x | z << 2 | y << 4.
                 const auto bounds = [](u32 four, i32 from, i32& low, i32& high) {
@@ -238,34 +229,21 @@ void Grid::refresh_area(ChunkPos at) {
     const GridView g = plain_view();
     const u32 area = area_slot_of(g, {at.x, at.y, at.z}), chunk = slot(at);
     const u32 bit = u32(at.x & 3) | u32(at.z & 3) << 2 | u32(at.y & 3) << 4;
-    for (u32 set = 0; set < 2; ++set) {
-        u64& word = areas_[set][area];
-        const u64 now = (word & ~(u64(1) << bit)) | u64(chunks_[chunk].bricks[set] != 0) << bit;
-        if (now == word) continue;
-        word = now;
-        areas_dirty_[set].add(area * sizeof(u64), (area + 1) * sizeof(u64));
+    const u64 now = (areas_[area] & ~(u64(1) << bit)) | u64(chunks_[chunk].bricks[0] != 0) << bit;
+    if (now == areas_[area]) return;
+    areas_[area] = now;
+    areas_dirty_.add(area * sizeof(u64), (area + 1) * sizeof(u64));
+}
+
+void Grid::refresh_water(ThreadPool* pool) {
+    for (const CalmWater::Made& made : calm_.refresh(pool)) {
+        const u32 s = slot(made.at);
+        GridChunk chunk = chunks_[s];
+        chunk.masks[1] = store_masks(chunk.masks[1], made.masks.stops);
+        chunk.bricks[1] = bricks_with_any(made.masks.stops);
+        chunk.layers = made.masks.layers;
+        store_chunk(s, chunk);
     }
-}
-
-const LayerMask& Grid::floor_at(ChunkPos at) const {
-    if (!in_window(at)) return kDryLayer;
-    const auto it = edges_.find(slot(at));
-    return it == edges_.end() ? kDryLayer : it->second.floor;
-}
-
-void Grid::refresh_water(ChunkPos at) {
-    if (!holds(at)) return;
-    const u32 s = slot(at);
-    const auto edges = edges_.find(s);
-    if (edges == edges_.end() || edges->second.ceiling == kDryLayer) return;
-    GridChunk chunk = chunks_[s];
-    BrickMasks water;
-    std::copy_n(masks_.data() + u64(chunk.masks[1]) * 64, 64, water.begin());
-    apply_water_above(water, edges->second.ceiling, floor_at(above(at)));
-    chunk.masks[1] = store_masks(chunk.masks[1], water);
-    chunk.bricks[1] = bricks_with_any(water);
-    store_chunk(s, chunk);
-    refresh_area(at);
 }
 
 void Grid::give_pieces(const GridChunk& chunk, u32 palette_size) {
@@ -279,22 +257,16 @@ void Grid::commit(ChunkPos at, const BlockStorage& blocks, Prepared& p) {
     const u64 old_bricks = chunk.bricks[0];
     const u32 old_palette = palette_sizes_[s], old_masks = chunk.masks[0];
 
-    const LayerMask old_floor = floor_at(at);
-    const bool wet = p.masks.water_floor != kDryLayer || p.masks.water_ceiling != kDryLayer;
-    if (wet)
-        edges_[s] = {p.masks.water_floor, p.masks.water_ceiling};
-    else
-        edges_.erase(s);
-    if (p.masks.water_ceiling != kDryLayer)
-        apply_water_above(p.masks.stops[1], p.masks.water_ceiling, floor_at(above(at)));
-
+    calm_.put(at, p.masks.water);
     // Blocks of masks: the opaque cells are often all that there is.
     const u32 old_opaque = chunk.opaque == chunk.masks[0] ? kNoMasks : chunk.opaque;
-    for (u32 set = 0; set < 2; ++set) {
-        chunk.masks[set] = store_masks(chunk.masks[set], p.masks.stops[set]);
-        chunk.bricks[set] = bricks_with_any(p.masks.stops[set]);
+    chunk.masks[0] = store_masks(chunk.masks[0], p.masks.stops);
+    chunk.bricks[0] = bricks_with_any(p.masks.stops);
+    if (!any_cell(p.masks.water.holds)) { // else they follow in refresh
+        if (chunk.masks[1] > kAllMasks) masks_.give(chunk.masks[1] * 64, 64);
+        chunk.masks[1] = kAllMasks, chunk.bricks[1] = ~u64(0), chunk.layers = 0;
     }
-    if (p.masks.opaque == p.masks.stops[0]) {
+    if (p.masks.opaque == p.masks.stops) {
         if (old_opaque > kAllMasks) masks_.give(old_opaque * 64, 64);
         chunk.opaque = chunk.masks[0];
     } else {
@@ -318,7 +290,6 @@ void Grid::commit(ChunkPos at, const BlockStorage& blocks, Prepared& p) {
     store_chunk(s, chunk);
     if (old_bricks != chunk.bricks[0] || old_masks != chunk.masks[0]) note_bricks(at, old_bricks, chunk.bricks[0]);
     refresh_area(at);
-    if (floor_at(at) != old_floor) refresh_water(below(at));
 }
 
 void Grid::drop(ChunkPos at) {
@@ -330,14 +301,12 @@ void Grid::drop(ChunkPos at) {
     if (chunk.opaque > kAllMasks && chunk.opaque != chunk.masks[0]) masks_.give(chunk.opaque * 64, 64);
     give_pieces(chunk, palette_sizes_[s]);
     give_tints(chunk.tints);
-    const bool floor = floor_at(at) != kDryLayer;
-    edges_.erase(s);
+    calm_.remove(at);
     palette_sizes_[s] = 0;
     --held_count_;
     store_chunk(s, absent_chunk());
     note_bricks(at, chunk.bricks[0], 0);
     refresh_area(at);
-    if (floor) refresh_water(below(at));
 }
 
 void Grid::give_tints(u32 block) {
@@ -480,6 +449,7 @@ GridView Grid::view() {
 GridView Grid::view() const {
     GridView g = plain_view();
     if (stale_) g.skips = nullptr;
+    if (calm_.pending()) g.water = 0;
     return g;
 }
 
@@ -487,12 +457,13 @@ GridView Grid::plain_view() const {
     GridView g;
     g.first = first_;
     g.bits_x = shape_.bits_x, g.bits_y = shape_.bits_y, g.bits_z = shape_.bits_z;
-    g.areas[0] = areas_[0].data(), g.areas[1] = areas_[1].data();
+    g.areas = areas_.data();
     g.chunks = chunks_.data();
     g.masks = masks_.data();
     g.palettes = palettes_.data();
     g.indices = indices_.data();
     g.tints = tints_.data();
+    g.water = water_, g.water_top = water_top_;
     g.skips = skips_.data();
     g.skip_shift_z = g.bits_x + 2, g.skip_shift_y = g.bits_x + g.bits_z + 4;
     g.skip_x = (16u << g.bits_x) - 4;
@@ -506,10 +477,8 @@ GridView Grid::plain_view() const {
 std::span<const std::byte> Grid::buffer(GridBuffer which) const {
     const auto bytes = [](const auto* data, u64 count) { return std::as_bytes(std::span(data, std::size_t(count))); };
     switch (which) {
-    case GridBuffer::areas_air:
-        return bytes(areas_[0].data(), areas_[0].size());
-    case GridBuffer::areas_water:
-        return bytes(areas_[1].data(), areas_[1].size());
+    case GridBuffer::areas:
+        return bytes(areas_.data(), areas_.size());
     case GridBuffer::chunks:
         return bytes(chunks_.data(), chunks_.size());
     case GridBuffer::masks:
@@ -528,10 +497,8 @@ std::span<const std::byte> Grid::buffer(GridBuffer which) const {
 
 std::span<const DirtyRanges::Range> Grid::dirty(GridBuffer which) const {
     switch (which) {
-    case GridBuffer::areas_air:
-        return areas_dirty_[0].ranges();
-    case GridBuffer::areas_water:
-        return areas_dirty_[1].ranges();
+    case GridBuffer::areas:
+        return areas_dirty_.ranges();
     case GridBuffer::chunks:
         return chunks_dirty_.ranges();
     case GridBuffer::masks:
@@ -549,15 +516,14 @@ std::span<const DirtyRanges::Range> Grid::dirty(GridBuffer which) const {
 }
 
 void Grid::clean() {
-    areas_dirty_[0].clear(), areas_dirty_[1].clear(), chunks_dirty_.clear();
+    areas_dirty_.clear(), chunks_dirty_.clear();
     masks_.dirty.clear(), indices_.dirty.clear(), palettes_.dirty.clear(), tints_.dirty.clear();
     skips_.dirty.clear();
 }
 
 u64 Grid::memory_bytes() const {
-    return areas_[0].size() * 16 + chunks_.size() * sizeof(GridChunk) + palette_sizes_.size() * 2 + masks_.bytes() +
-           skips_.bytes() + indices_.bytes() + palettes_.bytes() + tints_.bytes() +
-           edges_.size() * (sizeof(WaterEdges) + 32) + classes_.size();
+    return areas_.size() * 8 + chunks_.size() * sizeof(GridChunk) + palette_sizes_.size() * 2 + masks_.bytes() +
+           skips_.bytes() + indices_.bytes() + palettes_.bytes() + tints_.bytes() + calm_.bytes() + classes_.size();
 }
 
 } // namespace vitrail::trace

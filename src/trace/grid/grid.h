@@ -15,6 +15,7 @@
 
 #include "jobs/thread_pool.h"
 #include "trace/grid/brick_skips.h"
+#include "trace/grid/calm_water.h"
 #include "trace/grid/chunk_masks.h"
 #include "trace/grid/pool.h"
 #include "voxel/chunk.h"
@@ -29,8 +30,8 @@ struct GridShape {
 };
 
 // The arrays of a GridView, as a mirror copies them.
-enum class GridBuffer : u8 { areas_air, areas_water, chunks, masks, palettes, indices, tints, skips };
-inline constexpr u32 kGridBuffers = 8;
+enum class GridBuffer : u8 { areas, chunks, masks, palettes, indices, tints, skips };
+inline constexpr u32 kGridBuffers = 7;
 
 class Grid {
 public:
@@ -60,7 +61,7 @@ public:
 
     void refresh(ThreadPool* pool = nullptr);
     GridView view();
-    GridView view() const; // without skips where they are out of date
+    GridView view() const; // without what is out of date: skips, and what is known of water
     bool holds(ChunkPos chunk) const;
 
     std::span<const std::byte> buffer(GridBuffer which) const;
@@ -71,10 +72,6 @@ public:
     u64 memory_bytes() const;
 
 private:
-    // Layers of a chunk that decide with its neighbors which water is full.
-    struct WaterEdges {
-        LayerMask floor{}, ceiling{};
-    };
     struct Prepared {
         ChunkMasks masks;
         std::vector<u32> palette;
@@ -89,8 +86,7 @@ private:
     u32 store_masks(u32 old, const BrickMasks& masks);
     void store_chunk(u32 slot, const GridChunk& chunk);
     void refresh_area(ChunkPos at);
-    void refresh_water(ChunkPos at); // of a chunk whose upper neighbor's floor changed
-    const LayerMask& floor_at(ChunkPos at) const;
+    void refresh_water(ThreadPool* pool);
     BlockStorage storage_of(u32 slot) const;
     void apply_by_chunk(std::span<const Edit> edits);
     void remake_all();
@@ -100,12 +96,12 @@ private:
     GridShape shape_;
     IVec3 first_;
     std::vector<u8> classes_; // by StateId
-    u32 water_ = 0;
+    u32 water_ = 0, water_top_ = 0;
 
-    std::vector<u64> areas_[2];
+    std::vector<u64> areas_;
     std::vector<GridChunk> chunks_;
     std::vector<u16> palette_sizes_; // by slot; 0: not held
-    DirtyRanges areas_dirty_[2], chunks_dirty_;
+    DirtyRanges areas_dirty_, chunks_dirty_;
     Pool<u64> masks_, indices_;
     Pool<u32> palettes_, tints_;
     struct TintBlock {
@@ -113,9 +109,9 @@ private:
     };
     std::unordered_map<u64, TintBlock> tint_blocks_; // by hash
     std::unordered_map<u32, u64> tint_hashes_;       // by block
-    std::unordered_map<u32, WaterEdges> edges_;      // by slot, where there is water
     u32 held_count_ = 0;
     BrickSkips skips_;
+    CalmWater calm_;
     IVec3 least_; // of chunks that stop rays through air, and how many on each axis
     u32 extent_[3] = {0, 0, 0};
     bool stale_ = true;

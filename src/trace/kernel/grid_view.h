@@ -2,7 +2,9 @@
 // modulo the window), in three levels of 4^3: areas of 4^3 chunks, chunks of 4^3 bricks, bricks of 4^3 cells; below
 // them each chunk's palette indices as BlockStorage packs them. Kernel-safe; trace/grid/grid.h builds it.
 //
-// A second set of masks serves rays inside water: there a cell counts when it is anything but full water.
+// A second set of masks serves rays inside water: there a cell counts when it is not calm: anything but full water and
+// water with a flat surface (trace/grid/calm_water.h). So in a box without such cells surfaces lie in its highest layer
+// alone, all in one plane: above each is something else than water.
 //
 // Bit of a cell in its brick, of a brick in its chunk and of a chunk in its area: x | z << 2 | y << 4 (each 0..3).
 #pragma once
@@ -25,17 +27,20 @@ struct GridChunk {
     u32 indices;   // first word in GridView::indices; 64 words a bit of `bits`; order of cells: LocalPos::index
     u32 bits;      // 0 (uniform), 1, 2, 4, 8, 16
     u32 tints;     // block of kTintWords words in GridView::tints
+    u32 layers;    // whose cells are all calm, bit y: some are full; bit 16 + y: some are level
 };
 
 struct GridView {
-    IVec3 first;                              // least chunk of the window, in chunks; beyond the window there is air
-    u32 bits_x = 0, bits_y = 0, bits_z = 0;   // log2 of the window's size in chunks, 2..7
-    const u64* areas[2] = {nullptr, nullptr}; // by Through; slot of an area: as of a chunk, in units of 4
-    const GridChunk* chunks = nullptr;        // by slot
+    IVec3 first;                            // least chunk of the window, in chunks; beyond the window there is air
+    u32 bits_x = 0, bits_y = 0, bits_z = 0; // log2 of the window's size in chunks, 2..7
+    const u64* areas = nullptr;             // chunks that stop rays through air; slot: as of a chunk, in units of 4
+    const GridChunk* chunks = nullptr;      // by slot
     const u64* masks = nullptr;
     const u32* palettes = nullptr;
     const u64* indices = nullptr;
     const u32* tints = nullptr;
+    // The medium that calm water is of, 0: which is calm is not known; and height of its surface, 1/256 block.
+    u32 water = 0, water_top = 0;
     // By skip_index: how far rays through air may step from a brick (brick_skip), or where its mask is.
     const u32* skips = nullptr;
     // Of a cell in the window, as a byte in `skips`: x & skip_x | z << skip_shift_z & skip_z | y << skip_shift_y &
@@ -110,6 +115,12 @@ VX_HD bool stops_air(const GridView& g, IVec3 cell) {
     if (!in_window(g, chunk)) return false;
     const u32 block = g.chunks[slot_of(g, chunk)].masks[u32(Through::air)];
     return g.masks[block * 64 + brick_of(cell)] >> bit_of(cell) & 1;
+}
+
+// A cell of the window without anything that rays in water have to look at: full of water or level.
+VX_HD bool is_calm(const GridView& g, IVec3 cell) {
+    const u32 block = g.chunks[slot_of(g, {cell.x >> 4, cell.y >> 4, cell.z >> 4})].masks[u32(Through::water)];
+    return !(g.masks[block * 64 + brick_of(cell)] >> bit_of(cell) & 1);
 }
 
 } // namespace vitrail::trace

@@ -9,16 +9,17 @@ namespace vitrail::trace {
 
 inline constexpr u32 kCellsMost = 16384; // steps of one ray
 
-// What a ray looks for: cells set in a mask, or each one (in media without masks).
+// What a ray looks for: cells that stop rays through air, what is not calm water (trace/kernel/water_walk.h), or each
+// cell (in media without masks).
 enum class Seek : u8 { air = 0, water = 1, any = 2 };
 
 // Log2 of the empty aligned box around a cell of the window, in cells; stop: the cell itself counts, the box is 1.
-VX_HD u32 empty_box(const GridView& g, IVec3 cell, Through through, bool& stop) {
+VX_HD u32 empty_box(const GridView& g, IVec3 cell, bool& stop) {
     stop = false;
-    const u32 set = u32(through);
+    constexpr u32 set = u32(Through::air);
     const IVec3 chunk{cell.x >> 4, cell.y >> 4, cell.z >> 4};
     const GridChunk& c = g.chunks[slot_of(g, chunk)];
-    if (c.bricks[set] == 0) return g.areas[set][area_slot_of(g, chunk)] == 0 ? 6 : 4;
+    if (c.bricks[set] == 0) return g.areas[area_slot_of(g, chunk)] == 0 ? 6 : 4;
     const u32 brick = brick_of(cell);
     if (!(c.bricks[set] >> brick & 1)) return 2;
     stop = g.masks[c.masks[set] * 64 + brick] >> bit_of(cell) & 1;
@@ -80,7 +81,7 @@ VX_HD Walked next_stop(const GridView& g, const Ray& ray, Walk& w, Seek seek, do
         const IVec3 cell = w.cell();
         if (in_window_cell(g, cell)) {
             bool stop = true;
-            const u32 bits = seek == Seek::any ? 0 : empty_box(g, cell, Through(u8(seek)), stop);
+            const u32 bits = seek == Seek::air ? empty_box(g, cell, stop) : 0;
             if (stop && !fresh) return Walked::stopped;
             if (bits == 0)
                 step_cell(w);

@@ -45,12 +45,18 @@ VX_HD void states_around(const GridView& g, IVec3 middle, u32 (&out)[9]) {
         out[i] = g.palettes[c.palette + out[i]];
 }
 
-// A way through a fluid's cell, between these heights in it, is all above the surface, as few look-ups tell: rays that
-// water mirrors flatly pass hundreds of such cells. False: not known.
+// The fluid's surface in the cell is known: it is flat, or there is none.
+VX_HD bool known_calm(const GridView& g, IVec3 cell, u32 medium) {
+    return medium == g.water && in_window(g, {cell.x >> 4, cell.y >> 4, cell.z >> 4}) && is_calm(g, cell);
+}
+
+// A way through a fluid's cell, between these heights in it, is all above the surface, as few look-ups tell. False: not
+// known.
 VX_HD bool above_liquid(const SceneView& s, IVec3 cell, u32 medium, float y_in, float y_out) {
     const float top = float(s.media[medium].liquid_top) * (1.0f / 256) + 1e-4f;
     if (!(y_in > top && y_out > top)) return false;
-    bool open = true;
+    bool open = !stops_air(s.grid, {cell.x, cell.y + 1, cell.z});
+    if (!open || known_calm(s.grid, cell, medium)) return open;
     for (i32 z = -1; z <= 1; ++z)
         for (i32 x = -1; x <= 1; ++x)
             open &= !stops_air(s.grid, {cell.x + x, cell.y + 1, cell.z + z});
@@ -60,15 +66,17 @@ VX_HD bool above_liquid(const SceneView& s, IVec3 cell, u32 medium, float y_in, 
 // The cell holds the fluid.
 VX_HD LiquidTop liquid_top(const SceneView& s, IVec3 cell, u32 medium) {
     LiquidTop top;
-    u32 here[9], above[9];
-    states_around(s.grid, {cell.x, cell.y + 1, cell.z}, above);
-    top.full = s.states[above[4]].medium == medium;
-    if (top.full) {
-        top.slope = {scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull, scene::kLiquidFull};
+    const StateRecord& over = s.states[state_at(s.grid, {cell.x, cell.y + 1, cell.z})];
+    top.full = over.medium == medium;
+    top.covered =
+        !top.full && over.kind != CellKind::empty && over.kind != CellKind::model && over.kind != CellKind::liquid;
+    if (top.full || known_calm(s.grid, cell, medium)) {
+        const i32 height = top.full ? scene::kLiquidFull : i32(s.grid.water_top);
+        top.slope = {height, height, height, height};
         return top;
     }
-    const CellKind over = s.states[above[4]].kind;
-    top.covered = over != CellKind::empty && over != CellKind::model && over != CellKind::liquid;
+    u32 here[9], above[9];
+    states_around(s.grid, {cell.x, cell.y + 1, cell.z}, above);
     states_around(s.grid, cell, here);
     i32 of[9]; // what scene/liquid_surface.h asks of each
     for (u32 i = 0; i < 9; ++i) {

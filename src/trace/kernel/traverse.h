@@ -10,17 +10,24 @@
 #include "trace/kernel/air_walk.h"
 #include "trace/kernel/box_hit.h"
 #include "trace/kernel/cell_hit.h"
+#include "trace/kernel/water_walk.h"
 
 namespace vitrail::trace {
 
 VX_HD Seek seek_in(const SceneView& s, u32 medium) {
-    return medium == 0 ? Seek::air : s.media[medium].kind == 1 ? Seek::water : Seek::any;
+    return medium == 0 ? Seek::air : medium == s.grid.water ? Seek::water : Seek::any;
 }
 
 // The next cell to look into.
 VX_HD Walked next_look(const GridView& g, const Ray& ray, Walk& w, Seek seek, float t_max, u32& steps) {
-    if (seek == Seek::air && g.skips) return next_in_air(g, ray, w, t_max);
-    return next_stop(g, ray, w, seek, double(t_max), steps);
+    if (seek == Seek::water) return next_in_water(g, ray, w, double(t_max), steps);
+    if (seek == Seek::any || !g.skips) return next_stop(g, ray, w, seek, double(t_max), steps);
+    for (;;) {
+        const Walked walked = next_in_air(g, ray, w, t_max);
+        if (walked != Walked::stopped || !is_high(g, ray, w)) return walked;
+        const Walked past = pass_above_water(g, ray, w, double(t_max));
+        if (past != Walked::lost) return past;
+    }
 }
 
 // What the start cell can show from inside.

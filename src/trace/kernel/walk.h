@@ -120,10 +120,8 @@ VX_HD i32 settle(double a, double inverse, double dir, bool up, i32 r, i32 last,
 }
 
 // Leaves a box that holds the cell and nothing else that matters; p: the plane of the box, on each axis, that the ray
-// meets going out.
-VX_HD void leave_box(Walk& w, const Ray& ray, IVec3 p) {
-    double t;
-    const u32 axis = first_plane(w, p, t);
+// meets going out; axis, t: of the first of them.
+VX_HD void leave_by(Walk& w, const Ray& ray, IVec3 p, u32 axis, double t) {
     const bool ux = w.up & 1, uy = w.up & 2, uz = w.up & 4;
     const i32 x = axis == 0 ? (ux ? p.x : p.x - 1)
                             : settle(w.ax, w.ix, double(ray.dir.x), ux, w.x, ux ? p.x - 1 : p.x, t, 0 < axis);
@@ -133,6 +131,11 @@ VX_HD void leave_box(Walk& w, const Ray& ray, IVec3 p) {
         axis == 2 ? (uz ? p.z : p.z - 1) : settle(w.az, w.iz, double(ray.dir.z), uz, w.z, uz ? p.z - 1 : p.z, t, false);
     w.x = x, w.y = y, w.z = z;
     w.axis = axis, w.t = t;
+}
+VX_HD void leave_box(Walk& w, const Ray& ray, IVec3 p) {
+    double t;
+    const u32 axis = first_plane(w, p, t);
+    leave_by(w, ray, p, axis, t);
 }
 
 } // namespace vitrail::trace
