@@ -58,7 +58,7 @@ void rays(bench::Context& c, int which) {
     DeviceLand& d = device_land();
     if (!d.probe) return c.skip(d.why_not);
     const auto& set = d.sets[which].rays;
-    if (const auto done = d.probe->set_rays(set); !done) return c.skip(done.error().message);
+    if (const auto done = d.probe->set_rays(set, which == 0 || which == 3); !done) return c.skip(done.error().message);
     for (int i = -3; i < kLaunches; ++i) {
         const auto ms = which == 3 ? d.probe->shadows(0) : d.probe->closest(0);
         if (!ms) return c.skip(ms.error().message);
@@ -72,17 +72,19 @@ void wrong_hits(bench::Context& c) {
     if (!d.probe) return c.skip(d.why_not);
     u64 wrong = 0;
     for (const bench::RaySet& set : d.sets) {
-        if (const auto done = d.probe->set_rays(set.rays); !done) return c.skip(done.error().message);
-        const auto traced = d.probe->closest(0), shaded = d.probe->shadows(0);
-        if (!traced || !shaded) return c.skip("a launch failed");
-        const auto hits = d.probe->hits();
-        const auto lit = d.probe->lit();
-        if (!hits || !lit) return c.skip("reading failed");
-        for (std::size_t i = 0; i < set.hits.size(); ++i) {
-            const Hit &a = (*hits)[i], &b = set.hits[i];
-            const bool same = a.kind == b.kind && a.cell == b.cell && a.face == b.face && a.state == b.state &&
-                              (b.kind == HitKind::nothing || std::fabs(a.t - b.t) <= 1e-5f * (1 + b.t));
-            wrong += !same || ((*lit)[i] != 0) != (b.kind == HitKind::nothing);
+        for (const bool alike : {false, true}) {
+            if (const auto done = d.probe->set_rays(set.rays, alike); !done) return c.skip(done.error().message);
+            const auto traced = d.probe->closest(0), shaded = d.probe->shadows(0);
+            if (!traced || !shaded) return c.skip("a launch failed");
+            const auto hits = d.probe->hits();
+            const auto lit = d.probe->lit();
+            if (!hits || !lit) return c.skip("reading failed");
+            for (std::size_t i = 0; i < set.hits.size(); ++i) {
+                const Hit &a = (*hits)[i], &b = set.hits[i];
+                const bool same = a.kind == b.kind && a.cell == b.cell && a.face == b.face && a.state == b.state &&
+                                  (b.kind == HitKind::nothing || std::fabs(a.t - b.t) <= 1e-5f * (1 + b.t));
+                wrong += !same || ((*lit)[i] != 0) != (b.kind == HitKind::nothing);
+            }
         }
     }
     c.report(double(wrong));

@@ -40,11 +40,19 @@ void compare(RayProbe& probe, GridWorld& world, u32 medium, u64 seed, std::size_
     for (std::size_t i = 0; i < count; ++i)
         rays.push_back(test_ray(rng, world, u32(i)));
     ASSERT_TRUE(probe.update(source_of(world)));
+    ASSERT_TRUE(probe.set_rays(rays, true));
+    ASSERT_TRUE(probe.closest(medium));
+    ASSERT_TRUE(probe.shadows(medium));
+    const std::vector<Hit> alike_hits = probe.hits().value();
+    const std::vector<u8> alike_lit = probe.lit().value();
     ASSERT_TRUE(probe.set_rays(rays));
     ASSERT_TRUE(probe.closest(medium));
     ASSERT_TRUE(probe.shadows(medium));
     const std::vector<Hit> hits = probe.hits().value();
     const std::vector<u8> lit = probe.lit().value();
+    EXPECT_EQ(lit, alike_lit);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        ASSERT_TRUE(hits[i].t == alike_hits[i].t && what(hits[i]) == what(alike_hits[i])) << i;
     const SceneView scene = world.scene();
     u32 near = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

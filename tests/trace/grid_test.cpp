@@ -25,7 +25,9 @@ void expect_right_skips(Grid& grid) {
                 const u32 chunk = chunk_of_brick(x, y, z),
                           word = g.skips[skip_index(g, {g.first.x * 4 + x, g.first.y * 4 + y, g.first.z * 4 + z})];
                 if (stops(x, y, z)) {
-                    ASSERT_EQ(word, kBrickStops | (g.chunks[chunk].masks[0] * 64 + bit(x, y, z)));
+                    const u32 at = g.chunks[chunk].masks[0] * 64 + bit(x, y, z);
+                    const bool plain = g.masks[at] == g.masks[g.chunks[chunk].opaque * 64 + bit(x, y, z)];
+                    ASSERT_EQ(word, kBrickStops | (plain ? kBrickPlain : 0) | at);
                     continue;
                 }
                 for (u32 octant = 0; octant < 8; ++octant) {

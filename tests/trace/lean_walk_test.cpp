@@ -20,6 +20,8 @@ Ray any_ray(GridWorld& world, Rng& rng) {
 
 TEST(LeanWalk, KnowsWhatOthersFind) {
     Rng rng(51);
+    const BrickBoxes table = make_brick_boxes();
+    const auto boxes = [&](u32 i) { return table.of[i]; };
     for (const bool mixed : {false, true}) {
         GridWorld world;
         world.fill(rng, {{t_stone, mixed ? 0.01 : 0.03}});
@@ -33,7 +35,7 @@ TEST(LeanWalk, KnowsWhatOthersFind) {
         for (u32 i = 0; i < kRays; ++i) {
             const Ray ray = any_ray(world, rng);
             Hit lean, hit;
-            if (lean_closest(s, ray, 0, lean)) {
+            if (lean_closest(s, ray, 0, lean, boxes)) {
                 closest_hit(s, ray, kFar, 0, hit);
                 ++known, hits += hit.kind != HitKind::nothing;
                 ASSERT_EQ(lean.kind, hit.kind) << i;
@@ -45,7 +47,7 @@ TEST(LeanWalk, KnowsWhatOthersFind) {
                 }
             }
             const float most = i % 3 ? kFar : 1 + 40 * float(rng.unit());
-            const LeanEnd end = lean_shadow(s, ray, most, 0);
+            const LeanEnd end = lean_shadow(s, ray, most, 0, boxes);
             if (end == LeanEnd::hard) continue;
             bool panes = false;
             const bool is_dark = shadowed(s, ray, most, 0, [&](const Hit&) {
@@ -60,7 +62,7 @@ TEST(LeanWalk, KnowsWhatOthersFind) {
         EXPECT_GT(hits, kRays / 10);
         EXPECT_GT(lit, kRays / 20);
         EXPECT_GT(dark, kRays / 20);
-        EXPECT_EQ(lean_shadow(s, any_ray(world, rng), kFar, 1), LeanEnd::hard); // in water
+        EXPECT_EQ(lean_shadow(s, any_ray(world, rng), kFar, 1, boxes), LeanEnd::hard); // in water
     }
 }
 

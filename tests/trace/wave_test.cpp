@@ -32,6 +32,8 @@ WaveCount run_wave(const PathJob& job, u32 most, u32 shuffle) {
     std::memset(memory.get(), 0xcc, wave_bytes(plan));
     const Wave wave = lay_out_wave(plan, memory.get());
     const auto append = [](u32& counter) { return counter++; };
+    static const BrickBoxes table = make_brick_boxes();
+    const auto boxes = [](u32 i) { return table.of[i]; };
     std::mt19937 random(shuffle);
     const auto mix = [&](u32* from, u32 count) {
         if (shuffle) std::shuffle(from, from + count, random);
@@ -48,7 +50,7 @@ WaveCount run_wave(const PathJob& job, u32 most, u32 shuffle) {
             EXPECT_LE(now.rays.n, plan.paths);
             mix(wave.going[round & 1], now.rays.n);
             for (u32 i = 0; i < now.rays.n; ++i)
-                easy_closest_step(j, round, wave.going[round & 1][i], append);
+                easy_closest_step(j, round, wave.going[round & 1][i], append, boxes);
             for (u32 i = 0; i < now.hard.n; ++i)
                 closest_step(j, round, wave.going[(round + 1) & 1][i], append);
             count.hard += now.hard.n;
@@ -60,7 +62,7 @@ WaveCount run_wave(const PathJob& job, u32 most, u32 shuffle) {
                 event_step<true>(j, round, wave.ends[i], append);
             EXPECT_LE(now.lights.n, plan.paths * plan.lights_each);
             for (u32 i = 0; i < now.lights.n; ++i)
-                easy_light_step(j, round, shuffle ? now.lights.n - 1 - i : i, append);
+                easy_light_step(j, round, shuffle ? now.lights.n - 1 - i : i, append, boxes);
             for (u32 i = 0; i < now.hard_lights.n; ++i)
                 light_step(j, wave.hard_lights[i]);
             count.rays += now.rays.n + now.lights.n;

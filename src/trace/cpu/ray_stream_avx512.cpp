@@ -163,7 +163,9 @@ VX_HD void refill(Group& g, Block& b, const Range& range) {
         g.inverse[axis] = _mm512_mask_mov_ps(g.inverse[axis], take, inverse);
         octant = _mm512_mask_or_epi32(octant, __mmask16(~down), octant, _mm512_set1_epi32(1 << axis));
     }
-    g.shift = _mm512_mask_mullo_epi32(g.shift, take, octant, _mm512_set1_epi32(3));
+    static_assert(skip_shift(3) == 3 * 3 + 2);
+    g.shift = _mm512_mask_add_epi32(g.shift, take, _mm512_add_epi32(octant, octant),
+                                    _mm512_add_epi32(octant, _mm512_set1_epi32(2)));
     g.t_max = _mm512_mask_expandloadu_ps(g.t_max, take, &b.t_max[n]);
     g.id = _mm512_mask_expandloadu_epi32(g.id, take, &b.id[n]);
     g.axis = _mm512_mask_expandloadu_epi32(g.axis, take, &b.axis[n]);
@@ -206,7 +208,8 @@ VX_HD void load_words(Group& g, const GridView& grid, const Range& range) {
 // Second: bricks with anything in them: the half of their mask that has the cell's bit.
 VX_HD void load_masks(Group& g, const GridView& grid) {
     const __mmask16 filled = _mm512_movepi32_mask(g.word);
-    const __m512i at = _mm512_or_si512(_mm512_slli_epi32(g.word, 1), _mm512_srli_epi32(g.bit, 5));
+    const __m512i index = _mm512_and_si512(g.word, _mm512_set1_epi32(i32(kBrickPlain - 1)));
+    const __m512i at = _mm512_or_si512(_mm512_slli_epi32(index, 1), _mm512_srli_epi32(g.bit, 5));
     g.mask =
         _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), filled, at, reinterpret_cast<const int*>(grid.masks), 4);
 }

@@ -77,15 +77,20 @@ enum class FilmLayer : u8 { color, albedo, normal, distance, samples };
 u32 channels_of(FilmLayer layer);
 void launch_read(const FilmPlanes& film, const FilmFrame& frame, FilmLayer layer, float* to, CUstream_st* stream);
 
-// Rays by themselves. lit: 1 where nothing opaque lies before kFar; panes are passed. hard: for the launch's use, room
-// for as many as there are rays.
-struct RayList {
-    u32* ids;
-    u32* count;
+struct Word4;
+// Rays by themselves, in a medium: to what they meet, or whether nothing opaque lies before kFar (panes are passed).
+struct RayJob {
+    SceneView scene;
+    const Word4* rays = nullptr; // words.h: planes of `count`
+    u32 count = 0, medium = 0;
+    bool alike = false;      // neighbors go similar ways, so that warps need not look for work
+    Word4* hits = nullptr;   // of launch_closest: likewise
+    u8* lit = nullptr;       // of launch_shadows: 1 or 0
+    u32* hard = nullptr;     // room for `count` numbers, and
+    u32* counters = nullptr; // kRayCounters
 };
-void launch_closest(const SceneView& scene, const Ray* rays, u32 count, u32 medium, Hit* hits, const RayList& hard,
-                    CUstream_st* stream);
-void launch_shadows(const SceneView& scene, const Ray* rays, u32 count, u32 medium, u8* lit, const RayList& hard,
-                    CUstream_st* stream);
+inline constexpr u32 kRayCounters = 2;
+void launch_closest(const RayJob& job, CUstream_st* stream);
+void launch_shadows(const RayJob& job, CUstream_st* stream);
 
 } // namespace vitrail::trace::cuda

@@ -4,6 +4,7 @@
 
 #include "trace/cuda/frame_film.h"
 #include "trace/cuda/mirror.h"
+#include "trace/cuda/words.h"
 
 #include <array>
 
@@ -52,35 +53,33 @@ class Rays final : public RayProbe {
 public:
     Result<> open() {
         VX_TRY(gpus_[0].open(0));
-        VX_TRY(counter_.make(gpus_[0], sizeof(u32)));
+        VX_TRY(counters_.make(gpus_[0], kRayCounters * sizeof(u32)));
         VX_TRY(watch_.open());
         return mirror_.open();
     }
     Result<> update(const MirrorSource& source) override { return mirror_.update(source, nullptr); }
-    Result<> set_rays(std::span<const Ray> rays) override {
-        count_ = u32(rays.size());
+    Result<> set_rays(std::span<const Ray> rays, bool alike) override {
+        count_ = u32(rays.size()), alike_ = alike;
+        std::vector<Word4> words(rays.size() * kRayWords);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            words_of(rays[i], words[i], words[i + rays.size()], words[i + 2 * rays.size()]);
         VX_TRY(gpus_[0].wait());
-        VX_TRY(rays_.make(gpus_[0], rays.size_bytes()));
-        VX_TRY(hits_.make(gpus_[0], rays.size() * sizeof(Hit)));
+        VX_TRY(rays_.make(gpus_[0], words.size() * sizeof(Word4)));
+        VX_TRY(hits_.make(gpus_[0], rays.size() * kHitWords * sizeof(Word4)));
         VX_TRY(lit_.make(gpus_[0], rays.size()));
         VX_TRY(hard_.make(gpus_[0], rays.size() * sizeof(u32)));
-        return check(cudaMemcpy(rays_.as(), rays.data(), rays.size_bytes(), cudaMemcpyHostToDevice), "copying rays");
+        return check(cudaMemcpy(rays_.as(), words.data(), words.size() * sizeof(Word4), cudaMemcpyHostToDevice),
+                     "copying rays");
     }
-    Result<double> closest(u32 medium) override {
-        VX_TRY(gpus_[0].use());
-        VX_TRY(watch_.start());
-        launch_closest(mirror_.scene(0), rays_.as<Ray>(), count_, medium, hits_.as<Hit>(), list(), gpus_[0].stream);
-        return watch_.stop();
-    }
-    Result<double> shadows(u32 medium) override {
-        VX_TRY(gpus_[0].use());
-        VX_TRY(watch_.start());
-        launch_shadows(mirror_.scene(0), rays_.as<Ray>(), count_, medium, lit_.as<u8>(), list(), gpus_[0].stream);
-        return watch_.stop();
-    }
+    Result<double> closest(u32 medium) override { return launch(launch_closest, medium); }
+    Result<double> shadows(u32 medium) override { return launch(launch_shadows, medium); }
     Result<std::vector<Hit>> hits() override {
+        std::vector<Word4> words(std::size_t(count_) * kHitWords);
+        VX_TRY(check(cudaMemcpy(words.data(), hits_.as(), words.size() * sizeof(Word4), cudaMemcpyDeviceToHost),
+                     "reading hits"));
         std::vector<Hit> out(count_);
-        VX_TRY(check(cudaMemcpy(out.data(), hits_.as(), count_ * sizeof(Hit), cudaMemcpyDeviceToHost), "reading hits"));
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = hit_of(words[i], words[i + count_]);
         return out;
     }
     Result<std::vector<u8>> lit() override {
@@ -94,10 +93,20 @@ private:
     std::array<Gpu, 1> gpus_;
     SceneMirror mirror_{gpus_};
     Stopwatch watch_{gpus_[0]};
-    RayList list() const { return {hard_.as<u32>(), counter_.as<u32>()}; }
+    Result<double> launch(void (*rays)(const RayJob&, CUstream_st*), u32 medium) {
+        VX_TRY(gpus_[0].use());
+        RayJob job{
+            .scene = mirror_.scene(0), .rays = rays_.as<Word4>(), .count = count_, .medium = medium, .alike = alike_};
+        job.hits = hits_.as<Word4>(), job.lit = lit_.as<u8>();
+        job.hard = hard_.as<u32>(), job.counters = counters_.as<u32>();
+        VX_TRY(watch_.start());
+        rays(job, gpus_[0].stream);
+        return watch_.stop();
+    }
 
-    DeviceBytes rays_, hits_, lit_, hard_, counter_; // hard: see launch_closest
+    DeviceBytes rays_, hits_, lit_, hard_, counters_; // as RayJob's
     u32 count_ = 0;
+    bool alike_ = false;
 };
 
 class FilmAlone final : public FilmProbe {

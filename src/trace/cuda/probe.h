@@ -21,7 +21,8 @@ public:
     virtual ~RayProbe() = default;
 
     virtual Result<> update(const MirrorSource& source) = 0;
-    virtual Result<> set_rays(std::span<const Ray> rays) = 0;
+    // alike: neighbors go similar ways, as from a camera.
+    virtual Result<> set_rays(std::span<const Ray> rays, bool alike = false) = 0;
     // All rays at once, in a medium. Returns the launch's milliseconds, of the device's clock.
     virtual Result<double> closest(u32 medium) = 0;
     virtual Result<double> shadows(u32 medium) = 0;

@@ -7,13 +7,10 @@
 #pragma once
 
 #include "trace/cuda/launch.h"
+#include "trace/cuda/words.h"
 #include "trace/kernel/path.h"
 
 namespace vitrail::trace::cuda {
-
-struct alignas(16) Word4 {
-    u32 x, y, z, w;
-};
 
 // Counters of a round, each in a line of its own: warps of the whole device add to them.
 struct WaveRound {
@@ -90,19 +87,6 @@ VX_HD PathSettings settings_at(const PathJob& j, u32 x, u32 y) {
 
 // ---- Packing.
 
-VX_HD Word4 words_of(Vec3 v, u32 w) {
-    return {bits_of(v.x), bits_of(v.y), bits_of(v.z), w};
-}
-VX_HD Vec3 vec_of(Word4 w) {
-    return {float_of(w.x), float_of(w.y), float_of(w.z)};
-}
-VX_HD Word4 words_of(IVec3 v, u32 w) {
-    return {u32(v.x), u32(v.y), u32(v.z), w};
-}
-VX_HD IVec3 ivec_of(Word4 w) {
-    return {i32(w.x), i32(w.y), i32(w.z)};
-}
-
 // What a path has counted: bounces and events 10 bits each, medium 8, Since 2, sharp, bent.
 inline constexpr u32 kEventsMost = 1023;
 
@@ -124,9 +108,9 @@ VX_HD void store_path(const Wave& w, u32 path, const PathState& p, u32 x, u32 y)
 // Of a path its ray and medium alone.
 VX_HD Ray load_ray(const Wave& w, u32 path, u32& medium) {
     const u32 n = w.paths;
-    const Word4 a = w.path[path], b = w.path[path + n], c = w.path[path + 2 * n];
+    const Word4 a = w.path[path];
     medium = a.w >> 20 & 255;
-    return {{ivec_of(a), vec_of(b)}, {float_of(b.w), float_of(c.x), float_of(c.y)}};
+    return ray_of(a, w.path[path + n], w.path[path + 2 * n]);
 }
 
 VX_HD PathState load_path(const WaveJob& j, u32 path, u32& x, u32& y) {
@@ -134,7 +118,7 @@ VX_HD PathState load_path(const WaveJob& j, u32 path, u32& x, u32& y) {
     const Word4* from = j.wave.path + path;
     const Word4 a = from[0], b = from[n], c = from[2 * n], d = from[3 * n], e = from[4 * n];
     PathState p;
-    p.ray = {{ivec_of(a), vec_of(b)}, {float_of(b.w), float_of(c.x), float_of(c.y)}};
+    p.ray = ray_of(a, b, c);
     p.bounces = a.w & 1023, p.events = a.w >> 10 & 1023, p.medium = a.w >> 20 & 255;
     p.since = Since(u8(a.w >> 28 & 3));
     p.sharp = a.w >> 30 & 1, p.bent = a.w >> 31 & 1;
@@ -150,20 +134,11 @@ VX_HD PathState load_path(const WaveJob& j, u32 path, u32& x, u32& y) {
     return p;
 }
 
-// State ids lie below 2^25.
 VX_HD void store_hit(const Wave& w, u32 path, const Hit& h) {
-    w.hit[path] = words_of(h.cell, bits_of(h.t));
-    w.hit[path + w.paths] = {h.state | u32(h.kind) << 25 | u32(h.face) << 28 | u32(h.leaving) << 31, h.quad,
-                             bits_of(h.u), bits_of(h.v)};
+    words_of(h, w.hit[path], w.hit[path + w.paths]);
 }
 VX_HD Hit load_hit(const Wave& w, u32 path) {
-    const Word4 a = w.hit[path], b = w.hit[path + w.paths];
-    Hit h;
-    h.cell = ivec_of(a), h.t = float_of(a.w);
-    h.state = b.x & 0x1ffffff;
-    h.kind = HitKind(u8(b.x >> 25 & 7)), h.face = u8(b.x >> 28 & 7), h.leaving = b.x >> 31;
-    h.quad = b.y, h.u = float_of(b.z), h.v = float_of(b.w);
-    return h;
+    return hit_of(w.hit[path], w.hit[path + w.paths]);
 }
 
 // Rays to lights of one event go to sums of their own, so that it does not matter which arrives first.
@@ -183,7 +158,7 @@ VX_HD LightRay load_light(const Wave& w, u32 place, u32& path, Purse& purse) {
     const Word4* from = w.light + place;
     const Word4 a = from[0], b = from[n], c = from[2 * n], d = from[3 * n];
     LightRay r;
-    r.ray = {{ivec_of(a), vec_of(b)}, {float_of(b.w), float_of(c.x), float_of(c.y)}};
+    r.ray = ray_of(a, b, c);
     r.distance = float_of(c.z);
     r.medium = c.w & 255, r.counts = LightRay::Counts(u8(c.w >> 8 & 255)), purse = Purse(u8(c.w >> 16));
     r.value = vec_of(d);
@@ -210,7 +185,7 @@ VX_HD void add_to(Word4& sum, Vec3 v) {
 }
 
 // What one event found. It told guides if it told how far off they are.
-VX_HD void add_event(const Wave& w, u32 path, const PixelSample& found, bool = false) {
+VX_HD void add_event(const Wave& w, u32 path, const PixelSample& found) {
     Word4* to = w.sum + path;
     const u32 n = w.paths;
     if (found.distance > 0) {

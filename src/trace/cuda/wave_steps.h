@@ -47,17 +47,28 @@ VX_HD void closest_step(const WaveJob& j, u32 round, u32 path, Append&& append) 
     sort_hit(j, round, path, hit, append);
 }
 
-// The same for rays with an easy way; the others go to a list for closest_step. Events will put the next round's paths
-// where the list lies.
-template <class Append>
-VX_HD void easy_closest_step(const WaveJob& j, u32 round, u32 path, Append&& append) {
+// The same for rays with an easy way, in two parts with the walk between them; the others go to a list for
+// closest_step. Events will put the next round's paths where the list lies.
+VX_HD bool easy_closest_start(const WaveJob& j, u32 path, AirWalk& w) {
     u32 medium;
     const Ray ray = load_ray(j.wave, path, medium);
+    return lean_start(j.job.scene, ray, kFar, medium, w);
+}
+template <class Append>
+VX_HD void easy_closest_end(const WaveJob& j, u32 round, u32 path, LeanEnd end, const AirWalk& w, Append&& append) {
     Hit hit;
-    if (lean_closest(j.job.scene, ray, medium, hit))
+    if (end == LeanEnd::passed || (end == LeanEnd::stopped && lean_hit(j.job.scene, w, hit)))
         sort_hit(j, round, path, hit, append);
     else
         j.wave.going[(round + 1) & 1][append(j.wave.rounds[round].hard.n)] = path;
+}
+template <class Append, class Boxes>
+VX_HD void easy_closest_step(const WaveJob& j, u32 round, u32 path, Append&& append, Boxes&& boxes) {
+    u32 medium;
+    const Ray ray = load_ray(j.wave, path, medium);
+    AirWalk w;
+    const LeanEnd end = lean_walk(j.job.scene, ray, kFar, medium, w, boxes);
+    easy_closest_end(j, round, path, end, w, append);
 }
 
 // Event of a path whose ray met something, or nothing: by kernels of their own, each with half of path_event.
@@ -71,7 +82,6 @@ VX_HD void event_step(const WaveJob& j, u32 round, u32 path, Append&& append) {
         hit = load_hit(w, path);
         VX_ASSUME(hit.kind != HitKind::nothing);
     }
-    const bool sharp = state.sharp;
     PixelSample found;
     u32 sent = 0;
     const auto send = [&](const LightRay& to) {
@@ -80,7 +90,7 @@ VX_HD void event_step(const WaveJob& j, u32 round, u32 path, Append&& append) {
     };
     const bool on =
         path_event(j.job.scene, j.job.sky, settings_at(j.job, x, y), j.pixel_width, hit, state, found, send);
-    add_event(w, path, found, sharp && !state.sharp);
+    add_event(w, path, found);
     if (on) {
         store_path(w, path, state, x, y);
         w.going[(round + 1) & 1][append(w.rounds[round + 1].rays.n)] = path;
@@ -95,18 +105,34 @@ VX_HD void light_step(const WaveJob& j, u32 place) {
         add_light_ray(j.wave, path, purse, r.counts, r.value, j.job.settings);
 }
 
-// The same for rays with an easy way; the others go to a list for light_step.
+// The same for rays with an easy way; the others go to a list for light_step. most: how far they go.
+VX_HD bool easy_light_start(const WaveJob& j, u32 place, AirWalk& w, float& most) {
+    u32 path;
+    Purse purse;
+    const LightRay r = load_light(j.wave, place, path, purse);
+    most = light_reach(r.distance);
+    return most > 0 && lean_start(j.job.scene, r.ray, most, r.medium, w);
+}
 template <class Append>
-VX_HD void easy_light_step(const WaveJob& j, u32 round, u32 place, Append&& append) {
+VX_HD void easy_light_end(const WaveJob& j, u32 round, u32 place, LeanEnd end, const AirWalk& w, Append&& append) {
+    if (end == LeanEnd::passed) {
+        u32 path;
+        Purse purse;
+        const LightRay r = load_light(j.wave, place, path, purse);
+        add_light_ray(j.wave, path, purse, r.counts, r.value, j.job.settings);
+    } else if (end == LeanEnd::hard || !opaque_in(j.job.scene.grid, w)) {
+        j.wave.hard_lights[append(j.wave.rounds[round].hard_lights.n)] = place;
+    }
+}
+template <class Append, class Boxes>
+VX_HD void easy_light_step(const WaveJob& j, u32 round, u32 place, Append&& append, Boxes&& boxes) {
     u32 path;
     Purse purse;
     const LightRay r = load_light(j.wave, place, path, purse);
     const float most = light_reach(r.distance);
-    const LeanEnd end = most > 0 ? lean_shadow(j.job.scene, r.ray, most, r.medium) : LeanEnd::hard;
-    if (end == LeanEnd::passed)
-        add_light_ray(j.wave, path, purse, r.counts, r.value, j.job.settings);
-    else if (end == LeanEnd::hard)
-        j.wave.hard_lights[append(j.wave.rounds[round].hard_lights.n)] = place;
+    AirWalk w;
+    const LeanEnd end = most > 0 ? lean_walk(j.job.scene, r.ray, most, r.medium, w, boxes) : LeanEnd::hard;
+    easy_light_end(j, round, place, end, w, append);
 }
 
 // A path that needs more rounds than there are goes on to its end. Returns the rays that were traced.
@@ -118,8 +144,7 @@ VX_HD u32 rest_step(const WaveJob& j, u32 path) {
         Hit hit;
         closest_hit(j.job.scene, state.ray, kFar, state.medium, hit);
         ++rays;
-        const bool sharp = state.sharp;
-        PixelSample found;
+            PixelSample found;
         u32 sent = 0;
         const auto send = [&](const LightRay& to) {
             ++rays;
@@ -129,7 +154,7 @@ VX_HD u32 rest_step(const WaveJob& j, u32 path) {
                 add_light_ray(j.wave, path, purse, to.counts, value, settings);
         };
         on = path_event(j.job.scene, j.job.sky, settings, j.pixel_width, hit, state, found, send);
-        add_event(j.wave, path, found, sharp && !state.sharp);
+        add_event(j.wave, path, found);
     }
     return rays;
 }

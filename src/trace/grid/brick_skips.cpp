@@ -43,7 +43,7 @@ BrickBox window_of(const GridView& g) {
 } // namespace
 
 void BrickSkips::reset(u32 bits_x, u32 bits_y, u32 bits_z) {
-    words_.assign(std::size_t(64) << (bits_x + bits_y + bits_z), 0);
+    words_.assign(std::size_t(64) << (bits_x + bits_y + bits_z), kNoStops);
     changed_.clear(), touched_.clear();
     all_ = true;
 }
@@ -76,10 +76,13 @@ void BrickSkips::point_to_masks(const GridView& g, IVec3 chunk) {
     for (u32 b = 0; b < 64; b += 4) {
         u32* words = &words_[word_of(g, chunk.x * 4, chunk.y * 4 + i32(b >> 4), chunk.z * 4 + i32(b >> 2 & 3))];
         for (u32 x = 0; x < 4; ++x)
-            if (c.bricks[0] >> (b + x) & 1)
-                words[x] = kBrickStops | (c.masks[0] * 64 + b + x);
-            else if (words[x] & kBrickStops)
-                words[x] = 0;
+            if (c.bricks[0] >> (b + x) & 1) {
+                const u32 at = c.masks[0] * 64 + b + x;
+                const bool plain = g.masks[at] == g.masks[c.opaque * 64 + b + x];
+                words[x] = kBrickStops | (plain ? kBrickPlain : 0u) | at;
+            } else if (words[x] & kBrickStops) {
+                words[x] = kNoStops;
+            }
     }
 }
 
@@ -107,7 +110,7 @@ void BrickSkips::solve(const GridView& g, u32 octant, const BrickBox& box, const
     for (i32 k = 0; k <= nz; ++k)
         for (i32 i = 0; i <= nx; ++i)
             planes[0][std::size_t(k) * row + std::size_t(i)] = known(x_of(i), y_of(0), z_of(k));
-    const u32 shift = 3 * octant;
+    const u32 shift = skip_shift(octant);
     for (i32 j = 1; j <= ny; ++j) {
         const u8* ahead = planes[(j + 1) & 1].data();
         u8* now = planes[j & 1].data();

@@ -25,6 +25,15 @@ u64 bricks_with_any(const BrickMasks& masks) {
     return out;
 }
 
+// Bricks whose cells that stop rays through air are all opaque.
+u64 plain_bricks(const u64* masks, const GridChunk& c) {
+    if (c.opaque == c.masks[0]) return ~u64(0);
+    u64 out = 0;
+    for (u32 i = 0; i < 64; ++i)
+        out |= u64(masks[u64(c.masks[0]) * 64 + i] == masks[u64(c.opaque) * 64 + i]) << i;
+    return out;
+}
+
 u32 palette_capacity(std::size_t entries) {
     return u32(std::bit_ceil(entries));
 }
@@ -256,6 +265,7 @@ void Grid::commit(ChunkPos at, const BlockStorage& blocks, Prepared& p) {
     GridChunk chunk = chunks_[s];
     const u64 old_bricks = chunk.bricks[0];
     const u32 old_palette = palette_sizes_[s], old_masks = chunk.masks[0];
+    const u64 old_plain = plain_bricks(masks_.data(), chunk);
 
     calm_.put(at, p.masks.water);
     // Blocks of masks: the opaque cells are often all that there is.
@@ -288,7 +298,8 @@ void Grid::commit(ChunkPos at, const BlockStorage& blocks, Prepared& p) {
     if (old_palette == 0) ++held_count_;
     palette_sizes_[s] = u16(size);
     store_chunk(s, chunk);
-    if (old_bricks != chunk.bricks[0] || old_masks != chunk.masks[0]) note_bricks(at, old_bricks, chunk.bricks[0]);
+    if (old_bricks != chunk.bricks[0] || old_masks != chunk.masks[0] || old_plain != plain_bricks(masks_.data(), chunk))
+        note_bricks(at, old_bricks, chunk.bricks[0]);
     refresh_area(at);
 }
 

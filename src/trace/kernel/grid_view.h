@@ -19,14 +19,14 @@ enum class Through : u8 { air = 0, water = 1 };
 inline constexpr u32 kNoMasks = 0;  // mask block 0: all empty
 inline constexpr u32 kAllMasks = 1; // mask block 1: every cell
 
-struct GridChunk {
+struct alignas(16) GridChunk {
     u64 bricks[2]; // by Through: bricks with a cell that stops such a ray
-    u32 masks[2];  // by Through: block of 64 words in GridView::masks, a word a brick
-    u32 opaque;    // block of masks: cells that are opaque cubes without anything more to ask (no cutout, no model)
     u32 palette;   // first entry in GridView::palettes (state ids)
     u32 indices;   // first word in GridView::indices; 64 words a bit of `bits`; order of cells: LocalPos::index
     u32 bits;      // 0 (uniform), 1, 2, 4, 8, 16
     u32 tints;     // block of kTintWords words in GridView::tints
+    u32 masks[2];  // by Through: block of 64 words in GridView::masks, a word a brick
+    u32 opaque;    // block of masks: cells that are opaque cubes without anything more to ask (no cutout, no model)
     u32 layers;    // whose cells are all calm, bit y: some are full; bit 16 + y: some are level
 };
 
@@ -51,14 +51,22 @@ struct GridView {
     u32 extent_x = 0, extent_y = 0, extent_z = 0;
 };
 
-// A word of GridView::skips. A brick with a cell that stops rays through air: kBrickStops | its index in `masks`. Else
-// for each octant of directions (bit a: towards growing coordinates on axis a), in 3 bits, the side of the largest
-// empty cube of bricks that begins with this one and extends that way, less 1. Beyond the window all is empty.
-inline constexpr u32 kBrickStops = 1u << 31;
+// A word of GridView::skips. A brick with a cell that stops rays through air: kBrickStops | its index in `masks`, and
+// kBrickPlain where all such cells are opaque cubes without anything more to ask (as GridChunk::opaque). Else
+// kNoStops and for each octant of directions (bit a: towards growing coordinates on axis a), in 3 bits, the side of the
+// largest empty cube of bricks that begins with this one and extends that way, less 1. Beyond the window all is empty.
+inline constexpr u32 kBrickStops = 1u << 31, kBrickPlain = 1u << 30;
+inline constexpr u32 kNoStops = 3;  // the bits of a cell in its brick, on one axis: which air_walk.h sets with it
 inline constexpr u32 kSkipMost = 8; // bricks
 
+VX_HD u32 brick_mask_index(u32 word) {
+    return word & (kBrickPlain - 1);
+}
+VX_HD constexpr u32 skip_shift(u32 octant) {
+    return 3 * octant + 2;
+}
 VX_HD u32 brick_skip(u32 word, u32 octant) { // bricks, 1..kSkipMost
-    return (word >> 3 * octant & 7) + 1;
+    return (word >> skip_shift(octant) & 7) + 1;
 }
 
 // Bricks of the window lie in rows of x, then z, then y; it wraps around as slots do. brick: of the world.
