@@ -30,7 +30,7 @@ TEST(LeanWalk, KnowsWhatOthersFind) {
                 world.scatter(rng, state, 0.004);
         world.upload();
         const SceneView s = world.scene();
-        u32 known = 0, hits = 0, lit = 0, dark = 0;
+        u32 known = 0, hits = 0, lit = 0, dark = 0, cut = 0;
         constexpr u32 kRays = 40000;
         for (u32 i = 0; i < kRays; ++i) {
             const Ray ray = any_ray(world, rng);
@@ -46,6 +46,11 @@ TEST(LeanWalk, KnowsWhatOthersFind) {
                     ASSERT_EQ(lean.state, hit.state);
                 }
             }
+            AirWalk all, few;
+            const LeanEnd whole = lean_walk(s, ray, kFar, 0, all, boxes),
+                          begun = lean_walk(s, ray, kFar, 0, few, boxes, 4);
+            ASSERT_TRUE(begun == LeanEnd::hard || begun == whole); // what is not finished is not known
+            cut += begun != whole;
             const float most = i % 3 ? kFar : 1 + 40 * float(rng.unit());
             const LeanEnd end = lean_shadow(s, ray, most, 0, boxes);
             if (end == LeanEnd::hard) continue;
@@ -60,6 +65,7 @@ TEST(LeanWalk, KnowsWhatOthersFind) {
         }
         EXPECT_GT(known, kRays * (mixed ? 2 : 8) / 10);
         EXPECT_GT(hits, kRays / 10);
+        EXPECT_GT(cut, kRays / 10);
         EXPECT_GT(lit, kRays / 20);
         EXPECT_GT(dark, kRays / 20);
         EXPECT_EQ(lean_shadow(s, any_ray(world, rng), kFar, 1, boxes), LeanEnd::hard); // in water

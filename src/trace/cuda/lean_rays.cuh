@@ -101,9 +101,14 @@ __device__ __forceinline__ void lean_rays(const GridView& grid, Share share, Way
             continue;
         }
         const int keep = none_left ? 0 : 32 - kIdle;
+        u32 turns = kCellsMost;
         do {
             goes = step_air(g, w, boxes);
-        } while (__popc(__ballot_sync(~0u, goes)) > keep);
+        } while (__popc(__ballot_sync(~0u, goes)) > keep && --turns != 0);
+        if (turns == 0 && busy && goes) { // none goes so far
+            ways.end(LeanEnd::hard, w);
+            busy = goes = false;
+        }
     }
 }
 

@@ -319,7 +319,8 @@ VX_HD bool opaque_in(const GridView& g, const AirWalk& w) {
 }
 
 // Moves to the next cell, beyond the one it is in, that stops a ray through air; ended: none that is entered before
-// t_max. By GridView::skips, which there have to be. In double where that is faster: on CPUs.
+// t_max; lost: it is more than kCellsMost steps away. By GridView::skips, which there have to be. In double where that
+// is faster: on CPUs.
 VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max) {
 #ifdef __CUDA_ARCH__
     const IVec3 from{w.x, w.y, w.z};
@@ -327,9 +328,11 @@ VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max
     if (!in_air_range(g, w.cell())) p = call_step_exactly(g, ray, p, t_max);
     if (!p.inside) return Walked::ended;
     AirWalk a = start_air(g, ray, p.r, p.axis, t_max);
-    for (;;) {
-        while (step_air(g, a, NoBoxes{})) {
-        }
+    for (u32 steps = kCellsMost;;) {
+        while (step_air(g, a, NoBoxes{}) && steps != 0)
+            --steps;
+        if (steps == 0) return Walked::lost;
+        --steps;
         p = {cell_of(a), a.axis, true};
         if (!(p.r == from) && stops_here(g, a)) {
             w = walk_in(ray, p.r, p.axis);
@@ -342,7 +345,8 @@ VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max
 #else
     const IVec3 first{g.least.x * 16, g.least.y * 16, g.least.z * 16},
         size{i32(g.extent_x * 16), i32(g.extent_y * 16), i32(g.extent_z * 16)};
-    for (bool fresh = true;; fresh = false) {
+    u32 steps = kCellsMost;
+    for (bool fresh = true; steps-- != 0; fresh = false) {
         const IVec3 cell = w.cell();
         if (in_air_range(g, cell)) {
             const u32 word = g.skips[skip_index(g, {cell.x >> 2, cell.y >> 2, cell.z >> 2})];
@@ -357,6 +361,7 @@ VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max
         }
         if (!(w.t < double(t_max))) return Walked::ended;
     }
+    return Walked::lost;
 #endif
 }
 

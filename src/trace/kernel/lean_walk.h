@@ -74,16 +74,18 @@ VX_HD bool lean_hit(const SceneView& s, const AirWalk& w, Hit& hit) {
     return true;
 }
 
+// steps: more are hard.
 template <class Boxes>
-VX_HD LeanEnd lean_walk(const SceneView& s, const Ray& ray, float t_max, u32 medium, AirWalk& w, Boxes&& boxes) {
+VX_HD LeanEnd lean_walk(const SceneView& s, const Ray& ray, float t_max, u32 medium, AirWalk& w, Boxes&& boxes,
+                        u32 steps = kCellsMost) {
     if (!lean_start(s, ray, t_max, medium, w)) return LeanEnd::hard;
-    for (;;) {
-        while (step_air(s.grid, w, boxes)) {
-        }
+    while (steps-- != 0) {
+        if (step_air(s.grid, w, boxes)) continue;
         const LeanEnd end = lean_end(s.grid, w, t_max);
         if (end != LeanEnd::unsure) return end;
         if (!lean_exactly(s.grid, ray, t_max, w)) return LeanEnd::passed;
     }
+    return LeanEnd::hard;
 }
 
 // As closest_hit; false: not known.
