@@ -319,16 +319,16 @@ VX_HD bool opaque_in(const GridView& g, const AirWalk& w) {
 }
 
 // Moves to the next cell, beyond the one it is in, that stops a ray through air; ended: none that is entered before
-// t_max; lost: it is more than kCellsMost steps away. By GridView::skips, which there have to be. In double where that
-// is faster: on CPUs.
-VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max) {
+// t_max; lost: not within so many steps, which count down. By GridView::skips, which there have to be. In double where
+// that is faster: on CPUs.
+VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max, u32& steps) {
 #ifdef __CUDA_ARCH__
     const IVec3 from{w.x, w.y, w.z};
     AirPlace p{from, w.axis, true};
     if (!in_air_range(g, w.cell())) p = call_step_exactly(g, ray, p, t_max);
     if (!p.inside) return Walked::ended;
     AirWalk a = start_air(g, ray, p.r, p.axis, t_max);
-    for (u32 steps = kCellsMost;;) {
+    for (;;) {
         while (step_air(g, a, NoBoxes{}) && steps != 0)
             --steps;
         if (steps == 0) return Walked::lost;
@@ -345,8 +345,7 @@ VX_HD Walked next_in_air(const GridView& g, const Ray& ray, Walk& w, float t_max
 #else
     const IVec3 first{g.least.x * 16, g.least.y * 16, g.least.z * 16},
         size{i32(g.extent_x * 16), i32(g.extent_y * 16), i32(g.extent_z * 16)};
-    u32 steps = kCellsMost;
-    for (bool fresh = true; steps-- != 0; fresh = false) {
+    for (bool fresh = true; steps != 0; fresh = false, --steps) {
         const IVec3 cell = w.cell();
         if (in_air_range(g, cell)) {
             const u32 word = g.skips[skip_index(g, {cell.x >> 2, cell.y >> 2, cell.z >> 2})];

@@ -23,7 +23,7 @@ VX_HD Walked next_look(const GridView& g, const Ray& ray, Walk& w, Seek seek, fl
     if (seek == Seek::water) return next_in_water(g, ray, w, double(t_max), steps);
     if (seek == Seek::any || !g.skips) return next_stop(g, ray, w, seek, double(t_max), steps);
     for (;;) {
-        const Walked walked = next_in_air(g, ray, w, t_max);
+        const Walked walked = next_in_air(g, ray, w, t_max, steps);
         if (walked != Walked::stopped || !is_high(g, ray, w)) return walked;
         const Walked past = pass_above_water(g, ray, w, double(t_max));
         if (past != Walked::lost) return past;
@@ -96,7 +96,7 @@ VX_HD bool shadowed(const SceneView& s, const Ray& ray, float t_max, u32 medium,
         CellProgress progress;
         const Walk here = w; // as in closest_hit
         while (look && meet_cell(s, ray, here, medium, t_max, progress, hit, behind)) {
-            if (!passes_light(s, hit) || pane(static_cast<const Hit&>(hit))) return true;
+            if (!passes_light(s, hit) || pane(static_cast<const Hit&>(hit)) || steps-- == 0) return true;
             medium = behind;
         }
         const Walked walked = next_look(s.grid, ray, w, seek_in(s, medium), t_max, steps);
