@@ -98,14 +98,8 @@ TEST(TraceEmission, ShiningPartsBringTheWhole) {
     for (const auto& lamp : lamps) {
         ContentChunk chunk;
         chunk.set(8, 8, 8, lamp.state);
-        SceneView view = chunk.scene();
         LightStore lights;
-        lights.set_states(view, u32(base_content().tables.quads().size()));
-        Chunk all;
-        all.blocks = chunk.blocks();
-        lights.mark({0, 0, 0}, std::make_shared<Chunk>(std::move(all)));
-        lights.update(view.grid);
-        view.lights = lights.view();
+        const SceneView view = chunk.lit_scene(lights);
         constexpr u32 kSamples = 16384;
         for (const u32 face : {1u, 4u}) {
             const Vec3 axis = axis_of_face(face), side = -axis;

@@ -5,6 +5,7 @@
 #include "script/content_loader.h"
 #include "trace/content/content_tables.h"
 #include "trace/grid/grid.h"
+#include "trace/lights/light_store.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -85,6 +86,18 @@ public:
         view_ = base_content().scene;
         view_.grid = grid_.view();
         return view_;
+    }
+
+    // With its lamps, which `lights` holds.
+    SceneView lit_scene(LightStore& lights) {
+        SceneView view = scene();
+        lights.set_states(view, u32(base_content().tables.quads().size()));
+        auto all = std::make_shared<Chunk>();
+        all->blocks = blocks_;
+        lights.mark({0, 0, 0}, std::move(all));
+        lights.update(view.grid);
+        view.lights = lights.view();
+        return view;
     }
 
 private:

@@ -33,13 +33,7 @@ struct Room {
         at = {middle, lamp.ceiling ? height + 1 : 1, middle};
         chunk.set(at.x, at.y, at.z, lamp.state);
         levels = base_content().states->info(StateId(base_content().id(lamp.state))).look->light;
-        view = chunk.scene();
-        lights.set_states(view, u32(base_content().tables.quads().size()));
-        Chunk all;
-        all.blocks = chunk.blocks();
-        lights.mark({0, 0, 0}, std::make_shared<Chunk>(std::move(all)));
-        lights.update(view.grid);
-        view.lights = lights.view();
+        view = chunk.lit_scene(lights);
     }
     // What the raster renderer shows there, as white: levels fall by one a step, in corners as anywhere.
     Vec3 shown(IVec3 cell) const {
